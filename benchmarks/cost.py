@@ -12,10 +12,13 @@ from tools.tokens.world import GAS, Contract
 
 from shackled import ChainError, Scene
 from shackled.artifacts import artifact
-from shackled.bench import call, call_renderer, gas, millions, original, table
-from shackled.datasets import icons, require
+from shackled.bench._measure import call, call_renderer, gas
+from shackled.bench._original import original
+from shackled.bench._report import millions, table
+from shackled.datasets import icons
+from shackled.datasets._pieces import require
 from shackled.datasets.genesis import seed_of
-from shackled.ethereum import intrinsic_gas
+from shackled.ethereum._encoding import intrinsic_gas
 from shackled.gas import render_call
 
 from . import Section, shared

@@ -30,16 +30,16 @@ from tools.pages import ROOT, update
 
 from shackled import load
 from shackled.chain import open_chain
-from shackled.deploy import Deployment, deployments
-from shackled.deploy._contract import PROXY_CODE
+from shackled.deploy import deployments
+from shackled.deploy._contract import PROXY_CODE, Deployment
 from shackled.errors import ChainError
-from shackled.ethereum import PROXY
-from shackled.evm import Instance, Status
+from shackled.ethereum._encoding import PROXY
+from shackled.evm._instance import Instance, Status
 from shackled.library import items
-from shackled.scene import fit, pack
-from shackled.studio import STUDIO, StoreTransaction
+from shackled.scene._fit import fit
+from shackled.scene._packed import pack
 from shackled.studio._compact_mesh import compact
-from shackled.studio._storage import quantize, store_mesh
+from shackled.studio._storage import STUDIO, StoreTransaction, quantize, store_mesh
 
 from . import run_main
 

@@ -23,8 +23,12 @@ from tools.anvil import Anvil, find_anvil
 
 from shackled import Scene, load
 from shackled.artifacts import artifact
-from shackled.chain import CHAINS, ContractChain, NodeChain, open_chain, open_node
-from shackled.scene import LookOptions, encode
+from shackled.chain import open_chain, open_node
+from shackled.chain._chain import ContractChain
+from shackled.chain._node import NodeChain
+from shackled.chain._opening import CHAINS
+from shackled.scene import encode
+from shackled.scene._settings import LookOptions
 
 from . import run_main
 

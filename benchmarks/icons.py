@@ -16,9 +16,9 @@ from tools.tokens.stage import PRICE, stage, store_scene
 from tools.tokens.world import Refused
 
 from shackled.datasets import pieces
-from shackled.ethereum import intrinsic_gas
-from shackled.scene import resize
-from shackled.tokens import SCALE
+from shackled.ethereum._encoding import intrinsic_gas
+from shackled.scene._look import resize
+from shackled.tokens._icons import SCALE
 
 from . import read_figures, run_main, write_figures
 

@@ -21,9 +21,10 @@ from PIL import Image as PillowImage
 from tools.pages import ROOT
 
 from shackled import Rim, Scene, Tone, load, render
-from shackled.bench import table
-from shackled.bench._report import wrapped
-from shackled.scene import Hemisphere, fit, render_call
+from shackled.bench._report import table, wrapped
+from shackled.scene import Hemisphere
+from shackled.scene._codec import render_call
+from shackled.scene._fit import fit
 
 sys.path.insert(0, str(ROOT / "tests" / "support"))
 sys.path.insert(0, str(ROOT / "tests"))

@@ -19,15 +19,18 @@ from tools.anvil import Anvil, AnvilChain, find_anvil
 from tools.cluster import cluster
 
 from shackled import Cluster, Nodes, Processes, Scene
-from shackled.bench import gas, millions, table
-from shackled.chain import RevmChain, open_chain
-from shackled.datasets import require
+from shackled.bench._measure import gas
+from shackled.bench._report import millions, table
+from shackled.chain import open_chain
+from shackled.chain._embedded import RevmChain
+from shackled.datasets._pieces import require
 from shackled.parallel import Listener
 from shackled.parallel._backends import Backend, ChainBackend, Part
 from shackled.parallel._scheduler import Scheduler
 from shackled.parallel._tiles import grid
 from shackled.parallel.places import Embedded, Place
-from shackled.scene import Rectangle, full_turn
+from shackled.scene._codec import Rectangle
+from shackled.scene._turning import full_turn
 
 from . import Section, run_main, shared
 

@@ -17,10 +17,13 @@ from tools.pages import ROOT, update
 from shackled import Object, load, render
 from shackled.artifacts import artifact
 from shackled.chain import open_chain
-from shackled.datasets import require, teapot
+from shackled.datasets import teapot
+from shackled.datasets._pieces import require
 from shackled.datasets.genesis import generate_on_chain, picture_on_chain, seed_of
 from shackled.image import encode_bmp
-from shackled.scene import fit, pack, stage
+from shackled.scene import stage
+from shackled.scene._fit import fit
+from shackled.scene._packed import pack
 from shackled.studio import store_scene
 from shackled.studio._compact_mesh import compact
 from shackled.studio._storage import quantize, store_mesh

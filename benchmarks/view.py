@@ -28,8 +28,8 @@ from tools.page_server import chromium, static
 
 from shackled import load
 from shackled.artifacts import artifact
-from shackled.datasets import require
-from shackled.evm import module_bytes
+from shackled.datasets._pieces import require
+from shackled.evm._module import module_bytes
 from shackled.scene import encode
 
 from . import run_main

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from shackled import Scene
 from shackled.chain import open_chain
-from shackled.scene import fit
+from shackled.scene._fit import fit
 from shackled.stages import project
 
 

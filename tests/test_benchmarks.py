@@ -19,9 +19,11 @@ from benchmarks.workload import workload_of
 
 from compiler import needs_compiler
 from shackled import render
-from shackled.bench import EXPERIMENTS, _linear, fits, gas
+from shackled.bench import _linear, fits
+from shackled.bench._measure import gas
+from shackled.bench._runner import EXPERIMENTS
 from shackled.chain import open_chain
-from shackled.gas import STAGES
+from shackled.gas._stages import STAGES
 
 ROOT = Path(__file__).resolve().parent.parent
 

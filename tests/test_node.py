@@ -19,8 +19,10 @@ from nodes import ANVIL, needs_anvil
 from shackled import Camera, Light, Object, Scene
 from shackled.artifacts import artifact
 from shackled.chain import open_chain
-from shackled.scene import Rectangle, encode, fit, pack
-from shackled.scene._codec import LIGHTS, PROJECTIONS, SHADINGS, extensions
+from shackled.scene import encode
+from shackled.scene._codec import LIGHTS, PROJECTIONS, SHADINGS, Rectangle, extensions
+from shackled.scene._fit import fit
+from shackled.scene._packed import pack
 
 pytestmark = needs_anvil
 

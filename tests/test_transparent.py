@@ -39,7 +39,8 @@ from shackled import (
 from shackled.artifacts import artifact
 from shackled.cli.app import run
 from shackled.image import FORMATS, encode_bmp, uncovered
-from shackled.scene import Hemisphere, encode, full_turn
+from shackled.scene import Hemisphere, encode
+from shackled.scene._turning import full_turn
 
 Pixels = NDArray[np.uint8]
 GRADIENT = Background("#2060c0", "#f0c080")

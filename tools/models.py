@@ -32,7 +32,7 @@ from shackled.cli.option import with_options
 from shackled.cli.picture import FilmOptions, Source, Task, Work
 from shackled.cli.progress import Notes
 from shackled.errors import InputWarning, ShackledError
-from shackled.gas import fits_as_json
+from shackled.gas._limits import fits_as_json
 
 from .pages import ROOT, update
 

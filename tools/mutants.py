@@ -32,7 +32,7 @@ from typing import Any
 from unittest.mock import patch
 
 from shackled.artifacts import RENDERER, artifact
-from shackled.chain import EmbeddedChain, RevmChain
+from shackled.chain._embedded import EmbeddedChain, RevmChain
 from tools import build_contracts as tool
 
 ROOT = tool.ROOT

@@ -12,8 +12,9 @@ from typing import Any
 from shackled.base.checks import Color
 from shackled.deploy import _quote
 from shackled.gas import known_chains, limits
-from shackled.scene import PRESETS, SETTINGS
+from shackled.scene import PRESETS
 from shackled.scene._presets import Preset
+from shackled.scene._settings import SETTINGS
 from shackled.tokens._contract import USUAL_GAS
 from shackled.tokens._reveal import FIRST_GAS, REVEAL_GAS
 

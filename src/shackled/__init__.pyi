@@ -5,22 +5,17 @@ from .animation import Animation
 from .errors import ChainError, InputError, OutputError, RenderError, ShackledError
 from .image import Image
 from .parallel.places import Cluster, Nodes, Processes
-from .scene import (
-    Background,
-    Camera,
-    Fog,
-    Ground,
-    Light,
-    Material,
-    Mesh,
-    Object,
-    Rim,
-    Scene,
-    Texture,
-    Tone,
-    euler,
-)
-from .web import export, view
+from .scene._arithmetic import euler
+from .scene._camera import Camera
+from .scene._effects import Background, Fog, Rim, Tone
+from .scene._ground import Ground
+from .scene._light import Light
+from .scene._mesh import Mesh
+from .scene._object import Material, Object
+from .scene._scene import Scene
+from .scene._texture import Texture
+from .web._page import export
+from .web._widget import view
 
 __all__ = [
     "Animation",

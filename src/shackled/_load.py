@@ -12,44 +12,29 @@ import numpy as np
 from attrs import evolve, fields
 
 from .base.synonyms import with_words
-from .datasets import Piece, find, require
+from .datasets._pieces import Piece, find, require
 from .errors import InputError
-from .scene import (
-    GLTF,
-    MESH_STAGING,
-    PICTURE,
-    READERS,
-    SCENES,
-    Axis,
-    Link,
-    LookOptions,
-    Mesh,
-    MeshPart,
-    Object,
-    Scene,
-    about,
-    animation_length,
-    as_shown,
-    axis_of_file,
-    checked_look,
-    format_by_name,
-    format_of,
-    frame_count,
-    is_pipe,
-    is_trimesh,
-    link_of,
-    look_at,
-    mesh_of,
-    objects_of,
-    part_of,
-    read_model,
-    read_pipe,
-    read_scene,
-    read_view,
-    settings_of,
-    stored,
-    upright,
-)
+from .scene._canvas import as_shown
+from .scene._files.content import format_of, is_pipe, read_pipe, stored
+from .scene._files.gltf.animation import animation_length
+from .scene._files.gltf.view import read_view
+from .scene._files.link import Link, link_of
+from .scene._files.mesh_file import GLTF, READERS, read_model
+from .scene._files.model import MeshPart
+from .scene._files.picture import PICTURE
+from .scene._files.scene_file import SCENES, read_scene
+from .scene._files.signatures import format_by_name
+from .scene._files.table import about
+from .scene._from_others import mesh_of
+from .scene._from_trimesh import objects_of, part_of
+from .scene._look import look_at
+from .scene._mesh import Mesh, is_trimesh
+from .scene._object import Object
+from .scene._scene import Scene
+from .scene._settings import LookOptions, checked_look, settings_of
+from .scene._staging import MESH_STAGING
+from .scene._turning import frame_count
+from .scene._upright import Axis, axis_of_file, upright
 
 #: Input of `load`. `Any`: arrays of vertices and faces, or a mesh or scene of trimesh, an optional package.
 Thing = str | os.PathLike[str] | Piece | Mesh | Object | Scene | Sequence[Any] | Any

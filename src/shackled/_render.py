@@ -14,9 +14,13 @@ from .animation import DURATION, DURATIONS, Animation
 from .base.synonyms import with_words
 from .errors import InputError, OutOfGasError, warn
 from .image import Image, render_whole, uncovered
-from .parallel import Listener, render_frames
+from .parallel._job import render_frames
+from .parallel._scheduler import Listener
 from .parallel.places import Embedded, How, On
-from .scene import Background, LookOptions, Scene, full_turn
+from .scene._effects import Background
+from .scene._scene import Scene
+from .scene._settings import LookOptions
+from .scene._turning import full_turn
 
 
 @with_words
@@ -54,7 +58,7 @@ def render(
     """
     scene, how = load_picture(thing, size, **look), How(on, gas_limit, tile, listener, keep, transparent)
     if fit is not None:
-        from .gas import fit_scene
+        from .gas._fitting import fit_scene
 
         for name, given in (("tile", tile), ("gas_limit", gas_limit)):
             if given is not None:
@@ -135,7 +139,7 @@ def turn(scene: Scene, frames: int, duration: int, how: How, one_call: bool = Fa
     """Render a full turn of a scene. The arguments are those of `turntable`."""
     if not one_call:
         return film(full_turn(scene, frames), duration, how)
-    from .studio import make_apng
+    from .studio._files import make_apng
 
     if how.transparent:
         raise InputError("`one_call` and `transparent` exclude each other: the contract's file has a background")
@@ -163,7 +167,7 @@ def picture(scene: Scene, how: How) -> Image:
         else:
             images = render_frames(scenes, how)
     except OutOfGasError as error:
-        from .gas import savings
+        from .gas._savings import savings
 
         if error.limit is None:
             raise

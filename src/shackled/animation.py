@@ -41,7 +41,7 @@ from .image import (
     total,
     write_open,
 )
-from .scene import PICTURE
+from .scene._files.picture import PICTURE
 
 #: Milliseconds for which a frame is shown.
 DURATION = 80

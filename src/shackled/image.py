@@ -21,9 +21,11 @@ from PIL.PngImagePlugin import PngInfo
 from .base.checks import fixed
 from .base.values import Value, array_key
 from .base.whole_file import check_output_file, write_output
-from .chain import Drawing, open_chain
+from .chain._chain import Drawing
+from .chain._opening import open_chain
 from .errors import InputError, RenderError
-from .scene import CHUNK, DIGEST, PICTURE, Scene, SceneChunk, scene_chunk
+from .scene._files.picture import CHUNK, DIGEST, PICTURE, SceneChunk, scene_chunk
+from .scene._scene import Scene
 
 Pixels = NDArray[np.uint8]
 

@@ -16,9 +16,14 @@ from PIL import ImageDraw, ImageFont
 
 from .base.checks import Floats
 from .base.values import plural
-from .chain import Chain, open_chain
+from .chain._chain import Chain
+from .chain._opening import open_chain
 from .image import Pixels, decode_bmp
-from .scene import Background, Material, Mesh, Object, Scene, fit
+from .scene._effects import Background
+from .scene._fit import fit
+from .scene._mesh import Mesh
+from .scene._object import Material, Object
+from .scene._scene import Scene
 
 BLACK, WHITE = Background((0, 0, 0)), Background((255, 255, 255))
 #: The two greys of the checkerboard, and the side of its squares at 128 pixels.

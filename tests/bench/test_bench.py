@@ -13,17 +13,18 @@ from PIL import Image as PillowImage
 import shackled
 from shackled import InputError, Scene
 from shackled.artifacts import artifact
-from shackled.bench import EXPERIMENTS, Runner, call_renderer, fits, original, original_gas, scenes
+from shackled.bench import fits, scenes
 from shackled.bench._culling import culling
-from shackled.bench._measure import cost
-from shackled.bench._original import CODE_SIZES
+from shackled.bench._measure import call_renderer, cost
+from shackled.bench._original import CODE_SIZES, original, original_gas
 from shackled.bench._report import ExperimentReport, wrapped
-from shackled.chain import DEFAULT_GAS_LIMIT, open_chain
-from shackled.chain._embedded import SENDER
+from shackled.bench._runner import EXPERIMENTS, Runner
+from shackled.chain import open_chain
+from shackled.chain._embedded import DEFAULT_GAS_LIMIT, SENDER
 from shackled.cli.app import run
-from shackled.datasets import require
-from shackled.deploy import STANDARD
-from shackled.ethereum import to_hex
+from shackled.datasets._pieces import require
+from shackled.deploy._contract import STANDARD
+from shackled.ethereum._encoding import to_hex
 from shackled.scene._files.original import original_scene
 
 Rows = list[dict[str, str]]

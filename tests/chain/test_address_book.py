@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 from tools.children import child
 
-from shackled.chain import VARIABLE, AddressBook, book_path
+from shackled.chain._address_book import VARIABLE, AddressBook, book_path
 from shackled.errors import InputError, OutputError
 
 ONE, TWO = b"\x01" * 20, bytes.fromhex("5aAeb6053F3E94C9b9A09f33669435E7Ef1BeAed")

@@ -16,7 +16,7 @@ import pytest
 from commands import Shackled
 from shackled import __version__, cli
 from shackled.base.synonyms import INSTEAD
-from shackled.chain import EmbeddedChain, RevmChain
+from shackled.chain._embedded import EmbeddedChain, RevmChain
 from shackled.cli.app import LINES, app, run
 from shackled.cli.option import with_options
 

@@ -19,7 +19,7 @@ from tools.children import child
 from commands import Shackled
 from nodes import anvil, needs_anvil
 from shackled.base.whole_file import write_whole
-from shackled.chain import Drawing
+from shackled.chain._chain import Drawing
 from shackled.parallel._backends import draw_part
 
 PATIENCE = 60

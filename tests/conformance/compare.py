@@ -15,7 +15,7 @@ from judge import Picture, Verdict, render
 from judge.verdict import MANY, MEAN_OF_SCENE, MOST
 from pictures import UNLIT, Pixels, call_data, draw
 from shackled import Background, Mesh, Object, Scene
-from shackled.scene import fit
+from shackled.scene._fit import fit
 
 from . import opengl
 from .world import before_camera

@@ -14,8 +14,9 @@ from made_scenes import flat, teapot_scene
 from pictures import call_data
 from random_scenes import random_scene
 from shackled import Material, Mesh, Object, Scene
-from shackled.datasets import require
-from shackled.scene import fit, resize
+from shackled.datasets._pieces import require
+from shackled.scene._fit import fit
+from shackled.scene._look import resize
 
 from . import compare as comparison
 from . import opengl

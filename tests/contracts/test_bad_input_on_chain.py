@@ -20,7 +20,7 @@ from shackled import Background, Camera, ChainError, Fog, Light, Material, Mesh,
 from shackled.artifacts import artifact
 from shackled.errors import OutOfGasError
 from shackled.image import decode_bmp
-from shackled.scene import Rectangle, render_call
+from shackled.scene._codec import Rectangle, render_call
 
 ONE = 1 << 32
 TRIANGLE = [[-50, -50, 0], [50, -50, 0], [0, 50, 0]]

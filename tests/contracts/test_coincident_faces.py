@@ -11,7 +11,8 @@ from numpy.typing import NDArray
 
 from pictures import draw
 from shackled import Camera, Light, Material, Mesh, Object, Scene, Tone
-from shackled.scene import Rectangle, fit
+from shackled.scene._codec import Rectangle
+from shackled.scene._fit import fit
 from shackled.scene._object import Shading
 
 Array = NDArray[np.float64]

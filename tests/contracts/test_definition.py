@@ -13,7 +13,7 @@ import picture
 from pictures import call_data, draw
 from random_scenes import TAME, random_scene
 from shackled import Scene
-from shackled.scene import fit
+from shackled.scene._fit import fit
 
 FILE = Path(picture.__file__)
 #: The most lines: it is read in one sitting.

@@ -15,7 +15,7 @@ from PIL import Image as PillowImage
 from made_scenes import flat, teapot_scene
 from pictures import Pixels, call, counts, covered, draw, dynamic, soup, unlit_scene
 from shackled import Background, Camera, Scene
-from shackled.scene import fit
+from shackled.scene._fit import fit
 
 SVG = "{http://www.w3.org/2000/svg}"
 

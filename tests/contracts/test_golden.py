@@ -5,10 +5,10 @@ from __future__ import annotations
 import golden
 from pictures import chain
 from shackled.artifacts import artifact
-from shackled.chain import RevmChain
+from shackled.chain._embedded import RevmChain
 from shackled.chain._engines import engines
 from shackled.gas._trace import places
-from shackled.scene import render_call
+from shackled.scene._codec import render_call
 
 
 def test_pixels_and_gas() -> None:

@@ -19,7 +19,8 @@ from pictures import Pixels, call, call_data, draw, dynamic
 from random_scenes import KINDS, random_case
 from shackled import Camera, Light, Material, Mesh, Object, Scene, load
 from shackled.image import decode_bmp
-from shackled.scene import Rectangle, rotate
+from shackled.scene._arithmetic import rotate
+from shackled.scene._codec import Rectangle
 from shackled.scene._files.original import original_scene
 
 #: Of each kind, the seeds of small pictures that are judged.

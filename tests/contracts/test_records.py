@@ -21,8 +21,9 @@ from shackled.artifacts import artifact
 from shackled.chain._engines import ANTIALIASED, EFFECTS, PLAIN, engines
 from shackled.datasets.common import shapes
 from shackled.image import decode_bmp
-from shackled.scene import Rectangle, encode, fit, render_call
-from shackled.scene._codec import extensions
+from shackled.scene import encode
+from shackled.scene._codec import Rectangle, extensions, render_call
+from shackled.scene._fit import fit
 from shackled.studio._storage import quantize
 from stored_scenes import stored
 

@@ -15,7 +15,7 @@ from judge import judge
 from pictures import call, call_data, chain, counts, covered, draw, dynamic, words
 from shackled import Background, Camera, Light, Material, Mesh, Object, RenderError, Scene
 from shackled.parallel._tiles import grid
-from shackled.scene import Rectangle
+from shackled.scene._codec import Rectangle
 
 SQUARE = Mesh(
     [[-50, -50, 0], [50, -50, 0], [50, 50, 0], [-50, 50, 0]],

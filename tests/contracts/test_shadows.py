@@ -13,7 +13,8 @@ from attrs import evolve
 from pictures import draw
 from shackled import Camera, Ground, InputError, Light, Material, Mesh, Object, Scene, Tone, load
 from shackled.datasets.common import shapes
-from shackled.scene import fit, painted
+from shackled.scene._fit import fit
+from shackled.scene._staging import painted
 
 SIZE = 40
 

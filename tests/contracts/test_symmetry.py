@@ -16,8 +16,11 @@ from random_scenes import random_case
 from shackled import Camera, Light, Material, Mesh, Object, Scene
 from shackled.artifacts import artifact
 from shackled.datasets import teapot
-from shackled.scene import Hemisphere, fit, from_euler, look_at, rotate, vertex_normals
-from shackled.scene._look import MOST_TWO_SIDED
+from shackled.scene import Hemisphere
+from shackled.scene._arithmetic import from_euler, rotate
+from shackled.scene._fit import fit
+from shackled.scene._look import MOST_TWO_SIDED, look_at
+from shackled.scene._mesh import vertex_normals
 from shackled.scene._object import Shading
 from test_fill_rule import edge_functions
 

@@ -15,7 +15,8 @@ from pictures import call, call_data, chain, covered, draw, dynamic
 from shackled import Background, Camera, Material, Mesh, Object, RenderError, Scene
 from shackled.image import decode_bmp
 from shackled.parallel._tiles import grid
-from shackled.scene import Rectangle, fit
+from shackled.scene._codec import Rectangle
+from shackled.scene._fit import fit
 
 SIDE, ACROSS = 80, 4
 

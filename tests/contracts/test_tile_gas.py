@@ -10,7 +10,8 @@ from pictures import call, covered
 from random_scenes import random_case
 from shackled import Camera, Light, Material, Mesh, Object, Scene, load
 from shackled.parallel._tiles import grid
-from shackled.scene import Rectangle, fit
+from shackled.scene._codec import Rectangle
+from shackled.scene._fit import fit
 
 SIZE = 64
 LAMP = Light("point", (300, 200, -600))

@@ -12,7 +12,8 @@ from numpy.random import Generator
 from pictures import draw
 from random_scenes import KINDS, random_case
 from shackled import Camera, Light, Material, Mesh, Object, Scene
-from shackled.scene import Rectangle, fit
+from shackled.scene._codec import Rectangle
+from shackled.scene._fit import fit
 
 
 def cut(rng: Generator, tile: Rectangle, depth: int) -> Iterator[Rectangle]:

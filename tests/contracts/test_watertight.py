@@ -23,7 +23,7 @@ from pictures import (
 )
 from shackled import Camera, Light, Material, Mesh, Object, Scene
 from shackled.datasets.common import shapes
-from shackled.scene import fit
+from shackled.scene._fit import fit
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]

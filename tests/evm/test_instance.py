@@ -18,9 +18,9 @@ import pytest
 from tools.children import child
 
 from shackled import ChainError, InputError
-from shackled.chain import RevmChain
-from shackled.ethereum import word
-from shackled.evm import Instance, Status
+from shackled.chain._embedded import RevmChain
+from shackled.ethereum._encoding import word
+from shackled.evm._instance import Instance, Status
 
 ADDRESS = bytes(18) + b"\xc0\xde"
 #: JUMPDEST PUSH0 JUMP: 11 gas a round, until the gas ends.

@@ -12,12 +12,15 @@ from pictures import call, dynamic
 from shackled import load
 from shackled.artifacts import artifact, source
 from shackled.chain import open_chain
-from shackled.deploy import STANDARD
-from shackled.gas import KINDS, STAGES, Profile, flame_graph, measure, profile, render_call
-from shackled.gas._flame_graph import MARGIN, WIDTH
+from shackled.deploy._contract import STANDARD
+from shackled.gas import measure, profile, render_call
+from shackled.gas._flame_graph import MARGIN, WIDTH, flame_graph
+from shackled.gas._profile import KINDS, Profile
 from shackled.gas._source_map import source_map
+from shackled.gas._stages import STAGES
 from shackled.gas._trace import CallFrame, trace
-from shackled.scene import Rectangle, fit
+from shackled.scene._codec import Rectangle
+from shackled.scene._fit import fit
 
 NAMES = tuple(SMALL_SCENES)
 

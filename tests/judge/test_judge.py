@@ -10,7 +10,7 @@ from picture import SAMPLES
 from pictures import WHITE, call_data, draw
 from random_scenes import TAME, random_scene
 from shackled import Background, Camera, Light, Material, Mesh, Object, Scene, Texture, load
-from shackled.scene import fit
+from shackled.scene._fit import fit
 from shackled.scene._object import Shading
 
 from . import Picture, Verdict, draw_in_tiles, judge, judge_pixels, render

@@ -13,7 +13,8 @@ from pictures import Pixels, call_data
 from pictures import draw as drawn_by_contracts
 from shackled import Scene
 from shackled.parallel._tiles import grid
-from shackled.scene import Rectangle, fit
+from shackled.scene._codec import Rectangle
+from shackled.scene._fit import fit
 
 from .composition import Picture, render
 

@@ -20,11 +20,12 @@ from shackled import render
 from shackled.artifacts import artifact
 from shackled.cli.app import run
 from shackled.errors import InputError
-from shackled.ethereum import word
-from shackled.evm import Status
+from shackled.ethereum._encoding import word
+from shackled.evm._instance import Status
 from shackled.image import decode_bmp
 from shackled.library import chosen_items, items
-from shackled.scene import encode_scene, fit
+from shackled.scene._codec import encode_scene
+from shackled.scene._fit import fit
 
 #: The first byte of a pointer to a mesh (contracts/src/mesh/Kinds.sol).
 POINTED = 0x12

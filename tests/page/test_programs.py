@@ -20,11 +20,12 @@ from node_scripts import asked, needs_web
 from pictures import local
 from shackled import load, render
 from shackled.artifacts import RENDERER
-from shackled.chain import returned_bytes
+from shackled.chain._chain import returned_bytes
 from shackled.gas import render_call
-from shackled.scene import fit, pack
 from shackled.scene._codec import extensions
-from shackled.web import asset
+from shackled.scene._fit import fit
+from shackled.scene._packed import pack
+from shackled.web._page import asset
 
 LOCAL, LINK = "http://127.0.0.1:8000/creator.html#1abc", "https://pictures.example/creator/#1abc"
 LOOK = {

@@ -22,12 +22,14 @@ from tools.cluster import cluster
 
 from nodes import Reply, serving
 from shackled import ChainError, Cluster, InputError, Scene, load
-from shackled.chain import Drawing
+from shackled.chain._chain import Drawing
 from shackled.cli.app import run
-from shackled.parallel import Listener, _cluster, render_frames
+from shackled.parallel import Listener, _cluster
 from shackled.parallel._cluster import ClusterBackend
+from shackled.parallel._job import render_frames
 from shackled.parallel.places import How
-from shackled.scene import Rectangle, full_turn
+from shackled.scene._codec import Rectangle
+from shackled.scene._turning import full_turn
 
 Client = pytest.importorskip("distributed").Client
 SCENE = evolve(load("teapot"), width=48, height=48)

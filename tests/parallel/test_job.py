@@ -13,13 +13,15 @@ from attrs import evolve
 
 import shackled
 from shackled import Camera, ChainError, Cluster, Ground, Image, InputError, Nodes, Processes, Scene, load
-from shackled.chain import CHAINS, open_chain
-from shackled.parallel import Listener, Outline, render_frames
+from shackled.chain import open_chain
+from shackled.chain._opening import CHAINS
+from shackled.parallel import Listener
 from shackled.parallel._backends import ChainBackend
 from shackled.parallel._estimate import estimate
-from shackled.parallel._job import COMPARED_GAS, choose_verifier, plan
+from shackled.parallel._job import COMPARED_GAS, choose_verifier, plan, render_frames
+from shackled.parallel._scheduler import Outline
 from shackled.parallel.places import How
-from shackled.scene import Rectangle
+from shackled.scene._codec import Rectangle
 
 SCENE = evolve(load("teapot"), width=96, height=70)
 

@@ -15,10 +15,12 @@ from proxies import always, at, each_third, proxy
 from shackled import ChainError, Image, Nodes, load
 from shackled.chain import open_chain
 from shackled.errors import NodeError
-from shackled.ethereum import PROXY
-from shackled.parallel import Listener, Outline, render_frames
+from shackled.ethereum._encoding import PROXY
+from shackled.parallel import Listener
+from shackled.parallel._job import render_frames
+from shackled.parallel._scheduler import Outline
 from shackled.parallel.places import How
-from shackled.scene import full_turn
+from shackled.scene._turning import full_turn
 
 SCENE = evolve(load("cube"), width=64, height=60)
 TILE = (64, 5)

@@ -13,7 +13,8 @@ import pytest
 from attrs import evolve
 
 from shackled import OutputError, RenderError, Scene, load
-from shackled.chain import Drawing, open_chain
+from shackled.chain import open_chain
+from shackled.chain._chain import Drawing
 from shackled.errors import (
     NodeBusyError,
     NodeTimeoutError,
@@ -27,7 +28,7 @@ from shackled.parallel._backends import Backend, Part, Verifier, draw_part
 from shackled.parallel._scheduler import FAILURES, Scheduler
 from shackled.parallel._store import PartStore
 from shackled.parallel._tiles import area, cut
-from shackled.scene import Rectangle
+from shackled.scene._codec import Rectangle
 
 SIDE = 40
 SCENE = evolve(load("cube"), width=SIDE, height=SIDE)

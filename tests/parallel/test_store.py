@@ -8,14 +8,17 @@ import pytest
 from attrs import evolve
 
 from shackled import InputError, RenderError, Scene, load
-from shackled.chain import Drawing, open_chain
+from shackled.chain import open_chain
+from shackled.chain._chain import Drawing
 from shackled.errors import TooLargeError
-from shackled.parallel import Listener, folder_of, remove_parts, render_frames
+from shackled.parallel import Listener
 from shackled.parallel._backends import Part, draw_part
-from shackled.parallel._store import PartStore
+from shackled.parallel._job import render_frames
+from shackled.parallel._store import PartStore, folder_of, remove_parts
 from shackled.parallel._tiles import cut
 from shackled.parallel.places import How
-from shackled.scene import Rectangle, full_turn
+from shackled.scene._codec import Rectangle
+from shackled.scene._turning import full_turn
 
 SCENE = evolve(load("cube"), width=32, height=20)
 PARTS = [Part(0, tile) for tile in cut(32, 20, 160)]

@@ -13,15 +13,16 @@ from benchmarks.parallel import GRIDS, SIDES
 
 import shackled
 from shackled import Scene, load
-from shackled.bench import gas as gas_of
-from shackled.chain import ContractChain, open_chain
-from shackled.datasets import require
+from shackled.bench._measure import gas as gas_of
+from shackled.chain import open_chain
+from shackled.chain._chain import ContractChain
+from shackled.datasets._pieces import require
 from shackled.parallel._backends import ChainBackend
 from shackled.parallel._estimate import estimate
 from shackled.parallel._job import plan
 from shackled.parallel._tiles import grid
 from shackled.parallel.places import How
-from shackled.scene import Rectangle
+from shackled.scene._codec import Rectangle
 
 FIGURES = json.loads((Path(__file__).parents[2] / "benchmarks" / "parallel.json").read_text("utf-8"))
 

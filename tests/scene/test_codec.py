@@ -14,9 +14,12 @@ from hypothesis import strategies as st
 
 from pictures import scene_types
 from shackled import Background, Camera, Fog, InputError, Light, Material, Mesh, Object, Scene
-from shackled.scene import Projection, Rectangle, encode, fit, pack, vertex_normals
-from shackled.scene._codec import ONE, extensions
-from shackled.scene._fit import MAX_COORDINATE
+from shackled.scene import encode
+from shackled.scene._camera import Projection
+from shackled.scene._codec import ONE, Rectangle, extensions
+from shackled.scene._fit import MAX_COORDINATE, fit
+from shackled.scene._mesh import vertex_normals
+from shackled.scene._packed import pack
 
 SELECTOR = b"\x12\x34\x56\x78"
 TRIANGLE = Mesh([[0, 0, 0], [1000, 0, 0], [0, 1000, 0]], [[0, 1, 2]], [[1, 2, 3], [4, 5, 6], [255, 0, 128]])

@@ -15,9 +15,11 @@ from random_scenes import broken_call, random_case
 from shackled import Camera, InputError, Light, Mesh, Object, RenderError, Scene
 from shackled.chain import open_chain
 from shackled.datasets import pieces
-from shackled.scene import NORMAL_UNIT, decode, fit, pack, render_call
+from shackled.scene import decode
 from shackled.scene._arithmetic import cosine
-from shackled.scene._packed import unpack
+from shackled.scene._codec import render_call
+from shackled.scene._fit import fit
+from shackled.scene._packed import NORMAL_UNIT, pack, unpack
 from shackled.scene._records import ANTIALIAS, FOG, OPACITY_OF, RIM, SPOT, TONE
 
 TRIANGLE = Mesh([[0, 0, 0], [1000, 0, 0], [0, 1000, 0]], [[0, 1, 2]], [[1, 2, 3], [4, 5, 6], [255, 0, 128]])

@@ -10,7 +10,10 @@ from numpy.typing import NDArray
 from mesh_files import sheet
 from shackled import Image, Material, Mesh, Object, Scene, Texture, load, render
 from shackled.datasets.common import shapes
-from shackled.scene import decode, fit, look_at, render_call
+from shackled.scene import decode
+from shackled.scene._codec import render_call
+from shackled.scene._fit import fit
+from shackled.scene._look import look_at
 
 MOST = 65_535
 

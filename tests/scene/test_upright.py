@@ -13,7 +13,9 @@ from benchmarks import shared
 
 from shackled import InputError, Scene, load
 from shackled.datasets import pieces
-from shackled.scene import base_axis, faces_of_all, read_scene
+from shackled.scene._files.scene_file import read_scene
+from shackled.scene._mesh import faces_of_all
+from shackled.scene._upright import base_axis
 
 #: A pyramid with its tip along z, and the same as glTF has it.
 ALONG_Z = trimesh.Trimesh([(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0), (0, 0, 3)])

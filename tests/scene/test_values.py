@@ -28,7 +28,8 @@ from shackled import (
     replace,
 )
 from shackled.parallel.places import How
-from shackled.scene import rotate, simplify
+from shackled.scene._arithmetic import rotate
+from shackled.scene._simplify import simplify
 
 CORNERS, FACES = [(0.0, 0.0, 0.0), (1.0, 0.0, 0.0), (0.0, 1.0, 0.5)], [(0, 1, 2)]
 MESH = Mesh(CORNERS, FACES)

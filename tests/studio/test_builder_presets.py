@@ -10,8 +10,13 @@ from compiler import needs_compiler
 from probes import SCENE_STRUCT, Probe
 from shackled import load
 from shackled.artifacts import artifact
-from shackled.scene import PRESETS, Scene, checked_look, fit, look_at, pack
+from shackled.scene import PRESETS
 from shackled.scene._decode import read_call
+from shackled.scene._fit import fit
+from shackled.scene._look import look_at
+from shackled.scene._packed import pack
+from shackled.scene._scene import Scene
+from shackled.scene._settings import checked_look
 
 #: Of cosines and of coefficients, in Q32, after two roundings.
 NEAR = 2**-28

@@ -13,9 +13,10 @@ from tools.ledger import call_data
 
 from pictures import chain
 from shackled import ChainError, InputError, Mesh, RenderError, load
-from shackled.chain import EmbeddedChain
+from shackled.chain._embedded import EmbeddedChain
 from shackled.datasets import teapot
-from shackled.scene import fit, pack
+from shackled.scene._fit import fit
+from shackled.scene._packed import pack
 from shackled.studio._compact_mesh import COMPACT, compact, split_mesh
 from shackled.studio._storage import storage_address
 

@@ -24,9 +24,12 @@ import gltf_reader
 from shackled import Camera, Light, Material, Mesh, Object, RenderError, Scene, load
 from shackled.artifacts import artifact
 from shackled.datasets import pieces, teapot
-from shackled.deploy import local_chain
-from shackled.ethereum import word
-from shackled.scene import encode_scene, fit, from_euler, pack
+from shackled.deploy._contract import local_chain
+from shackled.ethereum._encoding import word
+from shackled.scene._arithmetic import from_euler
+from shackled.scene._codec import encode_scene
+from shackled.scene._fit import fit
+from shackled.scene._packed import pack
 from shackled.studio import store_scene
 from shackled.studio._compact_mesh import compact
 from shackled.studio._storage import scene_struct, store_mesh

@@ -14,8 +14,9 @@ from tools.ledger import call_data
 from compiler import needs_compiler
 from probes import Probe
 from shackled import Mesh, RenderError
-from shackled.scene import NORMAL_UNIT, is_closed, vertex_normals
-from shackled.scene._packed import unpack
+from shackled.scene._mesh import vertex_normals
+from shackled.scene._packed import NORMAL_UNIT, unpack
+from shackled.scene._staging import is_closed
 
 CENTER = np.array([10, 20, 30])
 SPHERE, CYLINDER, CONE, RING = range(4)

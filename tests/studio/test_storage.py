@@ -19,18 +19,23 @@ from shackled import InputError, Mesh, Object, Scene, load, render
 from shackled.chain import Connection
 from shackled.datasets import teapot
 from shackled.errors import RenderError, VerificationError
-from shackled.ethereum import intrinsic_gas
-from shackled.scene import fit, from_euler, pack, rotate, stage
-from shackled.studio import StoreTransaction, store_scene, stored_codes
+from shackled.ethereum._encoding import intrinsic_gas
+from shackled.scene import stage
+from shackled.scene._arithmetic import from_euler, rotate
+from shackled.scene._fit import fit
+from shackled.scene._packed import pack
+from shackled.studio import store_scene
 from shackled.studio._compact_mesh import compact, split_mesh
 from shackled.studio._storage import (
     SCENE,
+    StoreTransaction,
     compress_zeros,
     encode_with_pointers,
     expand_zeros,
     quantize,
     storage_address,
     store_mesh,
+    stored_codes,
     stored_meshes,
 )
 

@@ -19,9 +19,12 @@ from tools.png_code import SIGNATURE, encode_png
 from shackled import Background, Camera, Light, Material, Mesh, Object, RenderError, Scene, render
 from shackled.artifacts import artifact
 from shackled.chain import open_chain
-from shackled.ethereum import word
+from shackled.ethereum._encoding import word
 from shackled.image import decode_bmp
-from shackled.scene import encode_scene, fit, from_euler, pack
+from shackled.scene._arithmetic import from_euler
+from shackled.scene._codec import encode_scene
+from shackled.scene._fit import fit
+from shackled.scene._packed import pack
 from stored_scenes import CHANGES, SCENE_STRUCT, Pixels, changes, frames_of, stored, turned
 
 SPIN = "(uint256,uint256,uint256,(int256,int256,int256),bool)"

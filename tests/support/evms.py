@@ -10,8 +10,8 @@ from typing import Any
 import pytest
 
 from shackled.chain._embedded import SENDER, PyEvmChain
-from shackled.ethereum import intrinsic_gas, to_hex
-from shackled.evm import Answer, Instance, Status
+from shackled.ethereum._encoding import intrinsic_gas, to_hex
+from shackled.evm._instance import Answer, Instance, Status
 
 #: Where code under test is put.
 ADDRESS = bytes(18) + b"\xc0\xde"

@@ -20,7 +20,11 @@ from pictures import call_data
 from shackled import Background, Camera, Fog, Light, Material, Mesh, Object, Rim, Scene, Texture, Tone, load
 from shackled.datasets import pieces
 from shackled.datasets.common import shapes
-from shackled.scene import Hemisphere, Rectangle, fit, rotate, vertex_normals
+from shackled.scene import Hemisphere
+from shackled.scene._arithmetic import rotate
+from shackled.scene._codec import Rectangle
+from shackled.scene._fit import fit
+from shackled.scene._mesh import vertex_normals
 from shackled.scene._object import Shading
 from shackled.scene._staging import signed_volume
 from shackled.scene._texture import FILTERS, WRAPS

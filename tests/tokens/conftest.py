@@ -10,9 +10,9 @@ import pytest
 
 from commands import Said, Shackled
 from nodes import Node
-from shackled.chain import VARIABLE, AddressBook
+from shackled.chain._address_book import VARIABLE, AddressBook
 from shackled.cli.app import run
-from shackled.ethereum import checksum_address
+from shackled.ethereum._encoding import checksum_address
 from shackled.tokens._demo import development_accounts
 
 if TYPE_CHECKING:

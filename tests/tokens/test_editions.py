@@ -19,7 +19,7 @@ from tools.tokens.world import ETHER, GAS, ZERO, Contract, Receipt, Refused, Wor
 
 from adversaries import adversary
 from shackled import render
-from shackled.tokens import read_data_uri
+from shackled.tokens._metadata import read_data_uri
 from token_checks import document, execute, pixels, refused, traits
 
 OPEN = 2**32 - 1

@@ -17,7 +17,8 @@ from tools.tokens.stage import ALLOW_LIST, CLOSED, LIMIT, PRICE, PUBLIC, RESERVE
 from tools.tokens.world import ETHER, ZERO, Contract, Refused, account, keccak
 
 from adversaries import adversary
-from shackled.tokens import KINDS, sign_allowance
+from shackled.tokens._collection import KINDS
+from shackled.tokens._minting import sign_allowance
 from token_checks import execute, refused
 
 KEY = keccak(b"who signs")

@@ -18,14 +18,15 @@ from tools.tokens.stage import ALLOW_LIST, ICONS, PRICE, PUBLIC, icon_scene, sta
 from tools.tokens.world import Contract, account
 
 from shackled.chain import Connection
-from shackled.datasets import pieces, require
-from shackled.deploy import local_chain
-from shackled.ethereum import checksum_address, intrinsic_gas
-from shackled.studio import STUDIO
+from shackled.datasets import pieces
+from shackled.datasets._pieces import require
+from shackled.deploy._contract import local_chain
+from shackled.ethereum._encoding import checksum_address, intrinsic_gas
 from shackled.studio import store_scene as keep
-from shackled.tokens import Contract as Contract_
-from shackled.tokens import add_call, token_scene
+from shackled.studio._storage import STUDIO
 from shackled.tokens._contract import USUAL_GAS
+from shackled.tokens._contract import Contract as Contract_
+from shackled.tokens._icons import add_call, token_scene
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "tokens.md"
 COMMAND = "python -m benchmarks.icons"

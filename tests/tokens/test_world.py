@@ -16,7 +16,7 @@ from web3 import Web3
 from nodes import Node
 from shackled.artifacts import artifact
 from shackled.datasets.genesis import seed_of
-from shackled.ethereum import encode_header
+from shackled.ethereum._encoding import encode_header
 
 PRICE = 10**17
 

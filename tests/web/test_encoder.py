@@ -22,8 +22,9 @@ from shackled import Ground, InputError, Light, Mesh, Object, Scene, load
 from shackled.artifacts import artifact
 from shackled.datasets import pieces
 from shackled.image import decode_bmp
-from shackled.scene import Rectangle, decode, encode, render_call
+from shackled.scene import decode, encode
 from shackled.scene._arithmetic import from_axis_angle, multiply
+from shackled.scene._codec import Rectangle, render_call
 from shackled.scene._files.original import original_scene
 from shackled.scene._turning import turn
 

@@ -18,11 +18,11 @@ from tools.page_server import static
 from creator_page import PATIENCE, Tab
 from nodes import ANVIL, Reply, anvil, needs_anvil, result, serving
 from shackled import Scene, load, render
-from shackled.ethereum import to_hex
+from shackled.ethereum._encoding import to_hex
 from shackled.gas import profile
-from shackled.scene import render_call
+from shackled.scene._codec import render_call
 from shackled.studio import store_scene
-from shackled.web import asset
+from shackled.web._page import asset
 
 #: All that a page with the element needs; the page of a site needs less, since its scripts are files.
 POLICY = "default-src 'none'; script-src 'unsafe-inline' 'wasm-unsafe-eval'; worker-src blob:; connect-src *"

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..datasets import require
+from ..datasets._pieces import require
 from ._measure import cost
 from ._original import Measured, original
 from ._report import ORIGINAL, OURS, THIRD, ExperimentReport, millions, table

@@ -11,7 +11,7 @@ from urllib.parse import SplitResult, unquote, urlsplit
 
 from ..base.checks import number
 from ..errors import ChainError, InputError, NoAnswerError, NodeBusyError, NodeError, WrongChainError
-from ..ethereum import to_hex
+from ..ethereum._encoding import to_hex
 from ._failures import rpc_failure
 
 #: Default and maximum timeout of an answer, in seconds.

@@ -6,8 +6,8 @@ from functools import lru_cache
 
 from ..artifacts import artifact
 from ..errors import ChainError
-from ..ethereum import word
-from ..scene import WIREFRAME
+from ..ethereum._encoding import word
+from ..scene._codec import WIREFRAME
 from . import _layout as layout
 from ._chain import ContractChain, returned_bytes
 

@@ -21,7 +21,8 @@ from ..errors import (
     TooLargeError,
     WrongChainError,
 )
-from ..ethereum import Errors, decode_error, to_hex
+from ..ethereum._abi import Errors, decode_error
+from ..ethereum._encoding import to_hex
 
 #: Phrases of nodes, as lower-case letters only. The first group with a phrase that occurs in the message applies.
 TOO_LITTLE_GAS = """

@@ -19,7 +19,8 @@ def bench(
     processes: int | None = option("--processes", "Number of processes; one per core by default.", "N", min=1),
 ) -> None:
     """Run the experiments of the Shackled paper: gas against canvas, triangles, culling and more."""
-    from ..bench import EXPERIMENTS, Runner, can_plot
+    from ..bench._report import can_plot
+    from ..bench._runner import EXPERIMENTS, Runner
 
     if not names and output is None:
         print("\n".join(f"{name:10} {text}" for name, text in EXPERIMENTS.items()))

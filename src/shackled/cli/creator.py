@@ -16,11 +16,14 @@ from PIL import Image
 from .._load import load, locate
 from ..base.local_server import Answer, listen, run, type_of
 from ..base.whole_file import make_output_folder
-from ..chain import book_path
-from ..datasets import Piece
+from ..chain._address_book import book_path
+from ..datasets._pieces import Piece
 from ..datasets.genesis import seed_of
 from ..errors import InputError
-from ..scene import READERS, SCENES, Link, is_inside
+from ..scene._files.beside import is_inside
+from ..scene._files.link import Link
+from ..scene._files.mesh_file import READERS
+from ..scene._files.scene_file import SCENES
 from .option import argument, option
 
 #: Default port.

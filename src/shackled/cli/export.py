@@ -10,12 +10,12 @@ from typing import Any
 
 from .._load import locate
 from ..base.whole_file import check_output_file
-from ..datasets import Piece
+from ..datasets._pieces import Piece
 from ..errors import InputError
-from ..scene import Scene
-from ..studio import make_glb
-from ..web import check_page
-from ..web import export as write_page
+from ..scene._scene import Scene
+from ..studio._files import make_glb
+from ..web._page import check_page
+from ..web._page import export as write_page
 from .look_options import INPUT, load_with
 from .option import option
 from .picture import tell_why_nothing

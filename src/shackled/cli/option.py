@@ -135,7 +135,7 @@ def is_from_environment(name: str) -> bool:
 
 def option_names() -> dict[str, str]:
     """Return the options of parameters, those of a look too."""
-    from ..scene import SETTINGS
+    from ..scene._settings import SETTINGS
 
     return {setting.name: setting.option.partition("/")[0] for setting in SETTINGS} | OPTIONS
 

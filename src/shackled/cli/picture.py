@@ -20,13 +20,16 @@ from .._visible import why_nothing
 from ..animation import DURATION, Animation, check_duration
 from ..base.values import plural
 from ..base.whole_file import make_output_folder
-from ..chain import open_chain
+from ..chain._opening import open_chain
 from ..errors import ChainError, renaming
-from ..gas import Fit, fits_as_json, fits_of, headline, render_call, suffices
+from ..gas._limits import Fit, fits_as_json, fits_of, headline, render_call
+from ..gas._search import suffices
 from ..image import MOST_COLORS, Image, colors, total
-from ..parallel import Listener, folder_of, remove_parts
+from ..parallel._scheduler import Listener
+from ..parallel._store import folder_of, remove_parts
 from ..parallel.places import How
-from ..scene import PICTURE, Scene, scene_chunk, shows_scene
+from ..scene._files.picture import PICTURE, scene_chunk, shows_scene
+from ..scene._scene import Scene
 from .look_options import load_with
 from .option import exclude, need, option, with_options
 from .progress import LateBar

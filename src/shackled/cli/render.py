@@ -14,11 +14,12 @@ from PIL import Image as PillowImage
 
 from ..animation import FORMATS as FILMS
 from ..base.whole_file import check_output_folder, make_output_folder, write_output
-from ..chain import CHAINS, PATIENCE, open_chain
+from ..chain._connection import PATIENCE
+from ..chain._opening import CHAINS, open_chain
 from ..errors import InputError
 from ..image import FORMATS, check_alpha, one_of
 from ..parallel.places import VERIFY, Cluster, How, Nodes, On, Processes
-from ..scene import PICTURE
+from ..scene._files.picture import PICTURE
 from .look_options import FIT, INPUT, load_with, parse_sides
 from .option import exclude, is_from_environment, need, option
 from .picture import FilmOptions, Task, Work

@@ -23,11 +23,15 @@ from .._render import picture
 from ..animation import check_animation
 from ..base.untrusted import plain
 from ..base.workers import each
-from ..datasets import Piece
+from ..datasets._pieces import Piece
 from ..errors import InputError, InputWarning, ShackledError
 from ..image import check_output
 from ..parallel.places import Cluster, Processes
-from ..scene import PICTURE, READERS, Link, format_by_name, is_pipe, read_pipe, stored
+from ..scene._files.content import is_pipe, read_pipe, stored
+from ..scene._files.link import Link
+from ..scene._files.mesh_file import READERS
+from ..scene._files.picture import PICTURE
+from ..scene._files.signatures import format_by_name
 from .option import argument, with_options
 from .output import Action, action, noting, print_note
 from .picture import Done, Source, Work
@@ -195,7 +199,7 @@ def _render(notes: Action, work: Work) -> Outcome:
 
 def _on_cluster(work: Sequence[Work], on: Cluster, bar: LateBar) -> Iterator[Outcome]:
     """Read inputs and write pictures here, in order, and draw each picture whole on a worker of a cluster."""
-    from ..parallel import ClusterBackend
+    from ..parallel._cluster import ClusterBackend
 
     task, notes = work[0].task, action()
     drawn = partial(picture, how=evolve(task.how, on=on.evm))

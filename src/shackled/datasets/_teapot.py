@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..base.checks import whole
-from ..scene import Mesh
+from ..scene._mesh import Mesh
 from .common import shapes
 
 Profile = tuple[tuple[float, float], ...]

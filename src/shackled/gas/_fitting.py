@@ -14,10 +14,12 @@ from attrs import evolve
 
 from ..base.checks import choice
 from ..base.values import listed
-from ..chain import open_chain
+from ..chain._opening import open_chain
 from ..errors import InputError, OutOfGasError
-from ..ethereum import intrinsic_gas
-from ..scene import Scene, has_effects, simplify_scene
+from ..ethereum._encoding import intrinsic_gas
+from ..scene._codec import has_effects
+from ..scene._scene import Scene
+from ..scene._simplify import simplify_scene
 from ._limits import ENVELOPE, MAX_TRANSACTION, Limit, floor_gas, known_chains, limits, render_call
 
 #: What a picture is to fit, by the place whose limit it is: one transaction on Ethereum or on another chain, or a read

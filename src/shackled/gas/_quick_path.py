@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections import Counter
 
 from ..base.values import listed, plural
-from ..scene import Scene, has_effects
+from ..scene._codec import has_effects
+from ..scene._scene import Scene
 
 
 def missed_quick_path(scene: Scene) -> dict[str, int]:

@@ -12,9 +12,11 @@ from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
 from ..base.values import plural
-from ..chain import Drawing, open_chain
+from ..chain._chain import Drawing
+from ..chain._opening import open_chain
 from ..errors import InputError, RenderError, ShackledError, not_installed
-from ..scene import Rectangle, Scene
+from ..scene._codec import Rectangle
+from ..scene._scene import Scene
 from ._backends import ChainBackend
 from ._store import contracts_digest
 

@@ -8,10 +8,11 @@ from contextlib import ExitStack
 
 import numpy as np
 
-from ..chain import Drawing
+from ..chain._chain import Drawing
 from ..errors import caller
 from ..image import Image, decode_bmp, total
-from ..scene import Rectangle, Scene
+from ..scene._codec import Rectangle
+from ..scene._scene import Scene
 from ._backends import SAMPLE, Backend, Part, Verifier
 from ._estimate import Estimate, estimate
 from ._scheduler import Listener, Outline, Scheduler

@@ -14,10 +14,12 @@ from pathlib import Path
 
 from ..artifacts import RENDERER, artifact
 from ..base.whole_file import make_output_folder, write_output
-from ..chain import Drawing
+from ..chain._chain import Drawing
 from ..errors import ChainError, InputError
 from ..image import decode_bmp
-from ..scene import Scene, encode_scene, fit
+from ..scene._codec import encode_scene
+from ..scene._fit import fit
+from ..scene._scene import Scene
 from ._backends import Part
 
 SUFFIX = ".part"

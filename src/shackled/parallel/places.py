@@ -9,20 +9,14 @@ from attrs import field, frozen
 from attrs.converters import optional
 
 from ..base.checks import choice, flag, integer, whole
-from ..chain import (
-    CHAINS,
-    DEFAULT_GAS_LIMIT,
-    Chain,
-    RevmChain,
-    check_chain,
-    check_timeout,
-    check_url,
-    open_chain,
-    open_node,
-)
+from ..chain._chain import Chain
+from ..chain._connection import check_timeout, check_url
+from ..chain._embedded import DEFAULT_GAS_LIMIT, RevmChain
+from ..chain._opening import CHAINS, check_chain, open_chain, open_node
 from ..errors import ChainError, InputError, NodeError, OutOfGasError
-from ..ethereum import parse_address
-from ..scene import Scene, size_of
+from ..ethereum._encoding import parse_address
+from ..scene._scene import Scene
+from ..scene._settings import size_of
 from ._backends import Backend, ChainBackend
 from ._scheduler import Listener
 from ._tiles import is_large

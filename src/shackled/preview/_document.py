@@ -16,7 +16,7 @@ from PIL import UnidentifiedImageError
 
 from ..base.untrusted import plain, read_json
 from ..errors import VerificationError
-from ..tokens import MAX_LENGTH, read_data_uri
+from ..tokens._metadata import MAX_LENGTH, read_data_uri
 from ._needs import gltf_problems, html_problems, svg_problems
 
 #: Media types of pictures, and Pillow's names of them; SVG is read as XML.

@@ -11,7 +11,7 @@ from xml.etree import ElementTree
 
 from ..base.untrusted import plain, read_json
 from ..errors import VerificationError
-from ..tokens import read_data_uri
+from ..tokens._metadata import read_data_uri
 
 #: Addresses within the file itself, or of nothing that is loaded.
 INSIDE = re.compile(r"#|data:|blob:|about:|javascript:|$", re.IGNORECASE)

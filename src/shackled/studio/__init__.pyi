@@ -1,12 +1,8 @@
 from ._files import make_apng, make_glb
-from ._storage import ANIMATE, STUDIO, StoreTransaction, store_scene, stored_codes
+from ._storage import store_scene
 
 __all__ = [
-    "ANIMATE",
-    "STUDIO",
-    "StoreTransaction",
     "make_apng",
     "make_glb",
     "store_scene",
-    "stored_codes",
 ]

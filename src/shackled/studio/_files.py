@@ -8,12 +8,15 @@ from numpy.typing import ArrayLike
 from ..animation import DURATION, check_duration
 from ..artifacts import artifact
 from ..base.checks import vector, whole
-from ..chain import ContractChain, NodeChain, open_chain, open_node, returned_bytes
+from ..chain._chain import ContractChain, returned_bytes
+from ..chain._node import NodeChain
+from ..chain._opening import open_chain, open_node
 from ..contract_file import ContractFile
 from ..errors import InputError, VerificationError
-from ..ethereum import intrinsic_gas
+from ..ethereum._encoding import intrinsic_gas
 from ..parallel.places import Nodes, On
-from ..scene import Scene, encode
+from ..scene._codec import encode
+from ..scene._scene import Scene
 
 #: The most frames of an animated PNG file that a contract makes.
 MOST_FRAMES = 360

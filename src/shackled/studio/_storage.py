@@ -9,10 +9,17 @@ import numpy as np
 from attrs import evolve
 
 from ..artifacts import artifact
-from ..chain import Connection, open_chain
+from ..chain._connection import Connection
+from ..chain._opening import open_chain
 from ..errors import InputError, VerificationError
-from ..ethereum import checksum_address, create2_address, decode_values, encode_values, intrinsic_gas, word
-from ..scene import Object, Scene, encode_scene, fit, pack, rotate
+from ..ethereum._abi import decode_values, encode_values
+from ..ethereum._encoding import checksum_address, create2_address, intrinsic_gas, word
+from ..scene._arithmetic import rotate
+from ..scene._codec import encode_scene
+from ..scene._fit import fit
+from ..scene._object import Object
+from ..scene._packed import pack
+from ..scene._scene import Scene
 from ._compact_mesh import compact, vertex_order
 
 STUDIO = "Studio"

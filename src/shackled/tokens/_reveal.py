@@ -7,10 +7,10 @@ from dataclasses import dataclass
 from typing import Any
 
 from ..base.values import plural
-from ..chain import Connection, quantity
-from ..deploy import Call, Fees, Quote, make_quotes
+from ..chain._connection import Connection, quantity
+from ..deploy._quote import Call, Fees, Quote, make_quotes
 from ..errors import InputError, NoAnswerError, NodeError, RevertError, TransactionError
-from ..ethereum import encode_header, keccak256, to_hex
+from ..ethereum._encoding import encode_header, keccak256, to_hex
 from ._collection import Collection
 from ._contract import simulate
 

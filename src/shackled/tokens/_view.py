@@ -14,7 +14,7 @@ from string import Template
 from typing import Any
 
 from ..base.values import plural
-from ..chain import Report, read_all
+from ..chain._connection import Report, read_all
 from ._collection import Collection
 from ._metadata import Metadata
 

@@ -14,8 +14,10 @@ from PIL.PngImagePlugin import PngInfo
 
 from mesh_files import refusal
 from shackled import Image, InputError, Mesh, Scene, load, render
-from shackled.scene import read_scene, render_call, scene_chunk, stage
-from shackled.scene._files.picture import LONGEST_TEXT
+from shackled.scene import stage
+from shackled.scene._codec import render_call
+from shackled.scene._files.picture import LONGEST_TEXT, scene_chunk
+from shackled.scene._files.scene_file import read_scene
 
 SCENE = load("icons/coin", 24)
 CALL = b"0x" + render_call(SCENE).hex().encode()

@@ -10,7 +10,7 @@ from attrs import evolve
 from numpy.typing import ArrayLike, NDArray
 
 from ...base.checks import color as checked_color
-from ...scene import Mesh, faces_of_all, vertex_normals, without_slivers
+from ...scene._mesh import Mesh, faces_of_all, vertex_normals, without_slivers
 
 Array = NDArray[np.float64]
 #: From u and v, each (n, m) from 0 to 1, to points (n, m, 3).
