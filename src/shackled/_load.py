@@ -11,7 +11,7 @@ from typing import Any, Unpack
 import numpy as np
 from attrs import evolve, fields
 
-from .base.synonyms import with_words
+from .base.synonyms import Given, with_synonyms
 from .datasets._pieces import Piece, find, require
 from .errors import InputError
 from .scene._canvas import as_shown
@@ -46,7 +46,14 @@ GAP = 0.2
 replace = evolve
 
 
-@with_words
+def of_arrays(given: Given) -> Given:
+    """Return keywords with vertices and faces as one thing."""
+    if {"vertices", "faces"} <= given.keys():
+        given["thing"] = (given.pop("vertices"), given.pop("faces"))
+    return given
+
+
+@with_synonyms("vertices", "faces", read=of_arrays)
 def load(thing: Thing, size: int | tuple[int, int] | None = None, **look: Unpack[LookOptions]) -> Scene:
     """Return the scene of a file, a piece of a dataset, a mesh, arrays, or an object of trimesh.
 

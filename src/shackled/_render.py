@@ -9,9 +9,9 @@ from typing import Unpack
 
 from attrs import evolve
 
-from ._load import Thing, load_frames, load_picture
-from .animation import DURATION, DURATIONS, Animation
-from .base.synonyms import with_words
+from ._load import Thing, load_frames, load_picture, of_arrays
+from .animation import DURATION, DURATIONS, Animation, with_duration
+from .base.synonyms import Given, with_synonyms
 from .errors import InputError, OutOfGasError, warn
 from .image import Image, render_whole, uncovered
 from .parallel._job import render_frames
@@ -23,7 +23,19 @@ from .scene._settings import LookOptions
 from .scene._turning import full_turn
 
 
-@with_words
+def _of_picture(given: Given) -> Given:
+    """Return keywords with vertices and faces as one thing, and a transparent background as a flag."""
+    if str(given.get("background")).strip().lower() == "transparent":
+        given |= {"background": None, "transparent": True}
+    return of_arrays(given)
+
+
+def _of_film(given: Given) -> Given:
+    """Return the same, with the duration of a frame."""
+    return with_duration(_of_picture(given))
+
+
+@with_synonyms("vertices", "faces", read=_of_picture)
 def render(
     thing: Thing,
     size: int | tuple[int, int] | None = None,
@@ -70,7 +82,7 @@ def render(
     return picture(scene, how)
 
 
-@with_words
+@with_synonyms("fps", "vertices", "faces", read=_of_film)
 def turntable(
     thing: Thing,
     frames: int = 36,
@@ -102,7 +114,7 @@ def turntable(
     return turn(scene, frames, duration, how, one_call)
 
 
-@with_words
+@with_synonyms("fps", "vertices", "faces", read=_of_film)
 def animate(
     thing: str | os.PathLike[str],
     frames: int = 36,

@@ -15,7 +15,7 @@ import pytest
 
 from commands import Shackled
 from shackled import __version__, cli
-from shackled.base.synonyms import INSTEAD
+from shackled.base.synonyms import HINTS
 from shackled.chain._embedded import EmbeddedChain, RevmChain
 from shackled.cli.app import LINES, app, run
 from shackled.cli.option import with_options
@@ -215,7 +215,7 @@ MEANT = {
     "render shape.obj --fps 24": "option --fps: it is --duration",
     "render shape.obj --alpha": "option --alpha: it is --transparent",
     "gas shape.obj --bg red": "option --bg: it is --background",
-    "render shape.obj --intensity 2": f"option --intensity: {with_options(INSTEAD['intensity'])}",
+    "render shape.obj --intensity 2": f"option --intensity: {with_options(HINTS['intensity'])}",
 }
 
 

@@ -1,20 +1,18 @@
-"""The words of other programs: those that are taken in place of the library's, and what to give instead of others."""
+"""Synonyms: keywords of other libraries that are accepted, and hints for names that do not exist."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable
 from difflib import get_close_matches
 from functools import wraps
 from inspect import Parameter, signature
-from types import ModuleType
-from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from attrs.exceptions import FrozenInstanceError
 
-from ..errors import InputError, KeywordError
+from ..errors import KeywordError
 
-P = ParamSpec("P")
-R = TypeVar("R")
+Made = TypeVar("Made", bound=Callable[..., Any])
 #: Keywords with their values.
 Given = dict[str, Any]
 #: The most names that an error lists.
@@ -36,12 +34,12 @@ _LOOK = {
     "shadows": "shadow",
     "window_size": "size",
 }
-#: Settings of other programs with their values, and what these are here.
-_VALUES: dict[tuple[str, object], Given] = {
-    ("smooth_shading", True): {"shading": "smooth"},
-    ("smooth_shading", False): {"shading": "flat"},
-    ("style", "wireframe"): {"wireframe": True},
-    ("style", "surface"): {"wireframe": False},
+#: Settings of other libraries with their values, and what these are here.
+_VALUES: dict[tuple[str, object], tuple[str, object]] = {
+    ("smooth_shading", True): ("shading", "smooth"),
+    ("smooth_shading", False): ("shading", "flat"),
+    ("style", "wireframe"): ("wireframe", True),
+    ("style", "surface"): ("wireframe", False),
 }
 #: Colours of one letter, as in matplotlib.
 _LETTERS = dict(
@@ -51,8 +49,8 @@ _COLOR = {"colour": "color"}
 _CAMERA = {"look_at": "target", "position": "eye", "yfov": "fov"}
 _PICTURE = {"alpha": "transparent"}
 _FILM = {**_PICTURE, "n_frames": "frames"}
-#: Other words for keywords, by what has these: a class, a function, or a look.
-SAME = {
+#: Synonyms of keywords, by what takes these: a class, a function, or a look.
+SYNONYMS = {
     "look": _LOOK,
     "Animation": {"images": "frames"},
     "Camera": _CAMERA,
@@ -84,7 +82,7 @@ _SURFACE = "`color`, `shading`, `specular` and others set it, or render an Objec
 _FILE = "`save` of what is returned writes it to a file"
 _SCENE_FIXED = "a Scene does not change: give all objects to Scene([...]), or to shackled.replace(scene, objects=...)"
 #: What to give instead of a keyword, an attribute, or a name of the package.
-INSTEAD = {
+HINTS = {
     **dict.fromkeys(("output", "path", "filename"), _FILE),
     **dict.fromkeys(("width", "height", "dpi"), "`size` is the side in pixels, or (width, height)"),
     **dict.fromkeys(("cmap", "scalars"), "Mesh(positions, faces, colors=...) has a colour for each vertex"),
@@ -117,108 +115,70 @@ INSTEAD = {
 }
 
 
-def instead_of(name: str, known: Iterable[str]) -> str:
+def hint(name: str, known: Iterable[str]) -> str:
     """Return what was meant by a name that is not known, or else what is known."""
     names = list(known)
-    if name in INSTEAD:
-        return INSTEAD[name]
+    if name in HINTS:
+        return HINTS[name]
     if close := get_close_matches(name, names, 1, CUTOFF):
         return f"did you mean {close[0]}?"
     return f"known are {', '.join(names)}" if len(names) <= MOST_NAMES else "`shackled render --help` lists all"
 
 
-def in_our_words(owner: str, given: Given) -> Given:
-    """Return keywords with the words of other programs replaced. KeywordError where one is given twice."""
+def understood(owner: str, given: Given) -> Given:
+    """Return keywords with synonyms replaced. KeywordError where one is given twice."""
     found: Given = {}
     for name, value in given.items():
-        # a number is that of objects, not of the picture
-        ours = name if name == "alpha" and isinstance(value, float) else SAME.get(owner, {}).get(name, name)
+        ours = SYNONYMS.get(owner, {}).get(name, name)
+        if name == "alpha" and isinstance(value, float):  # of objects, not of the picture
+            ours = name
         if owner == "look" and isinstance(value, str | bool):
+            ours, value = _VALUES.get((name, value), (ours, value))
             value = _LETTERS.get(str(value), value) if "color" in ours or ours == "background" else value
-            ((ours, value),) = _VALUES.get((name, value), {ours: value}).items()
         if ours in found or (ours != name and ours in given):
             raise KeywordError(f"`{name}` and `{ours}` are the same: give one of them")
         found[ours] = value
     return found
 
 
-def with_words(function: Callable[P, R]) -> Callable[P, R]:
-    """Return a function that also takes the words of other programs, as `SAME` and `INSTEAD` have them."""
-    parameters = signature(function).parameters
-    named = [name for name, each in parameters.items() if each.kind in (each.POSITIONAL_OR_KEYWORD, each.KEYWORD_ONLY)]
-    has_look = any(each.kind == Parameter.VAR_KEYWORD for each in parameters.values())
+def with_synonyms(*more: str, read: Callable[[Given], Given] | None = None) -> Callable[[Made], Made]:
+    """Return a decorator of functions, and of frozen attrs classes, that also take the synonyms of their keywords.
 
-    @wraps(function)
-    def understanding(*args: Any, **given: Any) -> Any:
-        given = in_our_words(function.__name__, given)
-        if "thing" in named:
-            if {"vertices", "faces"} <= given.keys():
-                given["thing"] = (given.pop("vertices"), given.pop("faces"))
-            elif len(args) > 1 and _is_rows(args[0]) and _is_rows(args[1]):
-                args = ((args[0], args[1]), *args[2:])
-        if "transparent" in named and str(given.get("background")).strip().lower() == "transparent":
-            given = {**given, "background": None, "transparent": True}
-        if "duration" in named:
-            given = with_duration(given)
-        if not has_look:
-            _check(function.__qualname__, given, [name for name in named if name != "cls"])
-        try:
-            return function(*args, **given)
-        except KeywordError as error:
-            # one of a look is not known there, which does not know those of the function
-            close = get_close_matches(error.keyword, named, 1, CUTOFF)
-            if close:
-                raise KeywordError(
-                    f"{function.__name__} has no keyword {error.keyword!r}; did you mean {close[0]}?"
-                ) from None
-            raise
-
-    return understanding
-
-
-def _is_rows(value: Any) -> bool:
-    """Return whether a value is a table, such as the vertices or the faces of a mesh."""
-    try:
-        return not isinstance(value, str) and hasattr(value[0], "__len__")
-    except (TypeError, LookupError):
-        return False
-
-
-def with_duration(given: Given) -> Given:
-    """Return keywords with the duration of a frame in milliseconds in place of `fps`, the frames in a second."""
-    if "fps" not in given:
-        return given
-    if "duration" in given:
-        raise InputError("`fps` and `duration` exclude each other: give one of them")
-    fps = given.pop("fps")
-    try:
-        given["duration"] = round(1000 / fps)
-    except (TypeError, ValueError, ZeroDivisionError, OverflowError):
-        raise InputError(f"`fps` must be the number of frames in a second, not {fps!r:.60}") from None
-    return given
-
-
-def words_of(
-    *more: str, read: Callable[[Given], Given] | None = None, fields: Sequence[str] = ()
-) -> Callable[[type[R]], type[R]]:
-    """Return a decorator of frozen attrs classes whose constructors also take the words of other programs.
-
-    more: keywords that are no fields, which `read` replaces by some that are.
+    more: keywords that are no parameters, which `read` replaces by some that are. A KeywordError hints at what was
+    meant by any other.
     """
 
-    def decorated(made: type[R]) -> type[R]:
-        constructor: Any = made.__init__
-        names = [*fields, *(each.name for each in getattr(made, "__attrs_attrs__", ()))]
+    def decorated(made: Made) -> Made:
+        is_class = isinstance(made, type)
+        function: Any = made.__init__ if is_class else made  # type: ignore[misc]
+        kinds = {name: each.kind for name, each in signature(function).parameters.items()}
+        positional = [name for name, kind in kinds.items() if kind is Parameter.POSITIONAL_OR_KEYWORD]
+        by_name = [name for name, kind in kinds.items() if kind is Parameter.KEYWORD_ONLY]
+        known = [*(name for name in [*positional, *by_name] if name not in ("self", "cls")), *more]
+        has_look = Parameter.VAR_KEYWORD in kinds.values()
 
-        @wraps(constructor)
-        def understanding(self: Any, *args: Any, **given: Any) -> None:
-            given = in_our_words(made.__name__, given)
-            _check(made.__name__, given, [*names, *more])
-            if read is not None and len(args) <= len(names):
-                positional = dict(zip(names, args, strict=False))
-                if not positional.keys() & given.keys():
-                    args, given = (), read({**positional, **given})
-            constructor(self, *args, **given)
+        @wraps(function)
+        def understanding(*args: Any, **given: Any) -> Any:
+            given = understood(made.__name__, given)
+            for name in () if has_look else given:
+                if name not in known:
+                    raise KeywordError(f"{made.__qualname__} has no keyword {name!r}; {hint(name, known)}", name)
+            if "thing" in known and len(args) > 1 and _is_rows(args[0]) and _is_rows(args[1]):
+                args = ((args[0], args[1]), *args[2:])
+            named = dict(zip(positional, args, strict=False))
+            if read is not None and len(named) == len(args) and not named.keys() & given.keys():
+                args, given = (), read({**named, **given})
+            try:
+                return function(*args, **given)
+            except KeywordError as error:
+                # one of a look is not known there, which does not know those of the function
+                if not (close := get_close_matches(error.keyword, known, 1, CUTOFF) if has_look else []):
+                    raise
+                text = f"{made.__name__} has no keyword {error.keyword!r}; did you mean {close[0]}?"
+                raise KeywordError(text) from None
+
+        if not is_class:
+            return understanding  # type: ignore[return-value]
 
         def refuse(self: Any, name: str, *value: Any) -> None:
             error = FrozenInstanceError()
@@ -232,22 +192,21 @@ def words_of(
     return decorated
 
 
-def _check(owner: str, given: Given, names: Sequence[str]) -> None:
-    for name in given:
-        if name not in names:
-            raise KeywordError(f"{owner} has no keyword {name!r}; {instead_of(name, names)}", name)
+def _is_rows(value: Any) -> bool:
+    """Return whether a value is a table, such as the vertices or the faces of a mesh."""
+    try:
+        return not isinstance(value, str) and hasattr(value[0], "__len__")
+    except (TypeError, LookupError):
+        return False
 
 
-class Package(ModuleType):
-    """A package whose name is that of what it does: called as a function, it names its functions."""
-
-    def __call__(self, *_: object, **__: object) -> None:
-        """Raise a TypeError."""
-        raise TypeError(f"{self.__name__} is a package: call one of its functions, {', '.join(self.__all__)}")
+def _missing(kind: type, name: str) -> AttributeError:
+    text = f"; {HINTS[name]}" if name in HINTS else ""
+    return AttributeError(f"{kind.__name__} has no attribute {name!r}{text}", name=name)
 
 
-class Worded(type):
-    """A metaclass of values, which say what there is in place of an attribute that is not there."""
+class HintedType(type):
+    """The type of classes that hint at what there is in place of an attribute that is not there."""
 
     if not TYPE_CHECKING:
 
@@ -255,13 +214,8 @@ class Worded(type):
             raise _missing(cls, name)
 
 
-def _missing(kind: type, name: str) -> AttributeError:
-    hint = f"; {INSTEAD[name]}" if name in INSTEAD else ""
-    return AttributeError(f"{kind.__name__} has no attribute {name!r}{hint}", name=name)
-
-
-class Words(metaclass=Worded):
-    """A base of values, which say what there is in place of an attribute that is not there."""
+class Hinted(metaclass=HintedType):
+    """A base of values that hint at what there is in place of an attribute that is not there."""
 
     __slots__ = ()
 

@@ -8,10 +8,10 @@ from typing import Any, ClassVar, Self
 import numpy as np
 from attrs import Attribute
 
-from .synonyms import Words
+from .synonyms import Hinted
 
 
-class Value(Words):
+class Value(Hinted):
     """A base of frozen attrs classes with arrays.
 
     Unpickling calls the constructor, because NumPy does not restore that an array is read-only.

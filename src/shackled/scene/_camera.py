@@ -9,7 +9,7 @@ from attrs import field, frozen
 from numpy.typing import ArrayLike
 
 from ..base.checks import Floats, choice, number, optional_number, vector
-from ..base.synonyms import Given, with_words, words_of
+from ..base.synonyms import Given, with_synonyms
 from ..base.values import Value, checked, with_names
 from ..errors import InputError
 from ._arithmetic import tangent
@@ -45,7 +45,7 @@ def half_height_in(given: Mapping[str, Any], orthographic: bool) -> float | None
     return half_height_of(given["fov"])
 
 
-@words_of("fov", read=_with_fov)
+@with_synonyms("fov", read=_with_fov)
 @frozen(field_transformer=with_names)
 class Camera(Value):
     """A camera anywhere in a right-handed world with +y up.
@@ -78,7 +78,7 @@ class Camera(Value):
             raise InputError(f"the camera's near distance must be above 0 for a perspective camera, not {self.near!r}")
 
     @classmethod
-    @with_words
+    @with_synonyms()
     def perspective(
         cls,
         eye: ArrayLike = _EYE,

@@ -9,7 +9,7 @@ from attrs import field, frozen
 from numpy.typing import ArrayLike
 
 from ..base.checks import Color, Floats, choice, color, flag, instance, number, optional_vector, vector
-from ..base.synonyms import Given, with_words, words_of
+from ..base.synonyms import Given, with_synonyms
 from ..base.values import Value, checked, with_names
 from ..errors import InputError
 
@@ -45,7 +45,7 @@ def _of_words(given: Given) -> Given:
     return given
 
 
-@words_of("toward", "position", read=_of_words)
+@with_synonyms("toward", "position", read=_of_words)
 @frozen(field_transformer=with_names)
 class Light(Value):
     """One light; a scene has up to four. `Light.directional`, `Light.point` and `Light.spot` make one of each kind.
@@ -92,7 +92,7 @@ class Light(Value):
             )
 
     @classmethod
-    @with_words
+    @with_synonyms()
     def directional(
         cls,
         *unnamed: object,
@@ -112,13 +112,13 @@ class Light(Value):
         return cls("directional", color=color, shadow=shadow, **given)
 
     @classmethod
-    @with_words
+    @with_synonyms()
     def point(cls, position: ArrayLike, color: ArrayLike | str = WHITE, *, shadow: bool = False) -> Light:
         """Return a light that shines in all directions from a position, (3,) in the world; it does not fade."""
         return cls("point", position, color, shadow=shadow)
 
     @classmethod
-    @with_words
+    @with_synonyms()
     def spot(
         cls,
         position: ArrayLike,

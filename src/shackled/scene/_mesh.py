@@ -10,7 +10,7 @@ from attrs import field, frozen
 from numpy.typing import ArrayLike, NDArray
 
 from ..base.checks import Floats, Number, channels, fixed, rgba
-from ..base.synonyms import words_of
+from ..base.synonyms import with_synonyms
 from ..base.values import Value, checked, plural, with_names
 from ..errors import InputError
 from ._arithmetic import units
@@ -108,7 +108,7 @@ def _colors(values: Colors | None) -> NDArray[np.uint8]:
     return fixed(levels, np.uint8)
 
 
-@words_of()
+@with_synonyms()
 @frozen(field_transformer=with_names, repr=False)
 class Mesh(Value):
     """A triangle mesh; counter-clockwise faces are seen from the front.

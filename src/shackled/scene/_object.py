@@ -10,7 +10,7 @@ from attrs import evolve, field, frozen
 from numpy.typing import ArrayLike
 
 from ..base.checks import Color, Floats, choice, color, flag, instance, number, vector, whole
-from ..base.synonyms import Given, words_of
+from ..base.synonyms import Given, with_synonyms
 from ..base.values import Value, checked, with_names
 from ..errors import InputError
 from ._arithmetic import ORTHOGONAL, matrix_of, quaternion_of, rotate, rotation_of
@@ -37,7 +37,7 @@ def _coefficient(name: str) -> dict[str, Any]:
     return checked(f"the {name} coefficient of a material", *COEFFICIENTS)
 
 
-@words_of()
+@with_synonyms()
 @frozen(field_transformer=with_names)
 class Material:
     """Coefficients of Blinn-Phong shading, each 0..4; the exponent `shininess` 1..128, a whole number.
@@ -98,7 +98,7 @@ def _place(matrix: ArrayLike) -> Given:
     return {"position": m[:3, 3], "rotation": quaternion_of(m[:3, :3] / scale), "scale": scale}
 
 
-@words_of("color", "transform", read=_of_words)
+@with_synonyms("color", "transform", read=_of_words)
 @frozen(field_transformer=with_names)
 class Object(Value):
     """p = position + rotation(scale * v) for every vertex v of the mesh.

@@ -11,7 +11,7 @@ import numpy as np
 from attrs import field, frozen
 
 from ..base.checks import Color, Floats, color, flag, instance, integer
-from ..base.synonyms import Words, words_of
+from ..base.synonyms import Hinted, with_synonyms
 from ..base.values import checked, plural, with_names
 from ..base.whole_file import check_output_file, write_output
 from ..errors import InputError
@@ -43,9 +43,9 @@ def _side(value: int, name: str = "side") -> int:
     return side
 
 
-@words_of()
+@with_synonyms()
 @frozen(field_transformer=with_names, repr=False)
-class Scene(Words):
+class Scene(Hinted):
     """Objects, drawn in their order with one depth buffer, seen by a camera.
 
     objects: also a Mesh in place of an Object, or one alone.

@@ -10,7 +10,7 @@ from attrs import Factory, evolve, field, frozen
 from numpy.typing import ArrayLike
 
 from ..base.checks import choice, color, flag, integer, number, vector, whole
-from ..base.synonyms import in_our_words, instead_of
+from ..base.synonyms import hint, understood
 from ..errors import InputError, KeywordError
 from ._arithmetic import IDENTITY, multiply, rotation_of
 from ._camera import FIELDS_OF_VIEW, Camera
@@ -377,11 +377,11 @@ def checked_look(options: Mapping[str, Any]) -> dict[str, Any]:
 
     InputError names the keyword that is wrong, or two that exclude each other, each in `backticks`.
     """
-    options = in_our_words("look", _taken_apart({name: value for name, value in options.items() if value is not None}))
+    options = understood("look", _taken_apart({name: value for name, value in options.items() if value is not None}))
     known = {setting.name: setting for setting in SETTINGS}
     for name in options:
         if name not in known:
-            raise KeywordError(f"{name!r} is not a keyword of a look; {instead_of(name, known)}", name)
+            raise KeywordError(f"{name!r} is not a keyword of a look; {hint(name, known)}", name)
     look = {name: known[name].check(value, f"`{name}`") for name, value in options.items()}
     shadings = {name for name in ("smooth", "unlit") if look.pop(name, False)} | {*filter(None, [look.get("shading")])}
     if len(shadings) > 1:
