@@ -36,7 +36,7 @@ from shackled.errors import ChainError
 from shackled.ethereum._encoding import PROXY
 from shackled.evm._instance import Instance, Status
 from shackled.library import items
-from shackled.scene._fit import fit
+from shackled.scene._in_range import in_range
 from shackled.scene._packed import pack
 from shackled.studio._compact_mesh import compact
 from shackled.studio._storage import STUDIO, StoreTransaction, quantize, store_mesh
@@ -149,7 +149,7 @@ def storing_table(costs: dict[str, Cost]) -> str:
 def mesh_costs() -> dict[str, Cost]:
     """Return the costs of storing a mesh of about a thousand triangles, as it is and rounded."""
     studio = open_chain().address(STUDIO)
-    (exact,) = fit(load("teapot")).objects
+    (exact,) = in_range(load("teapot")).objects
     costs = {}
     for name, o, normal_bits in (
         ("a smooth mesh of {} triangles, exact", exact, 10),

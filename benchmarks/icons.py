@@ -12,7 +12,7 @@ from pathlib import Path
 
 from attrs import evolve
 from tools.pages import ROOT, update
-from tools.tokens.stage import PRICE, stage, store_scene
+from tools.tokens.launched import PRICE, launched, store_scene
 from tools.tokens.world import Refused
 
 from shackled.datasets import pieces
@@ -37,7 +37,7 @@ Figures = dict[str, dict[str, int | bool]]
 
 def take() -> Figures:
     """Measure the collection of all icons, each once plain and once antialiased."""
-    s = stage()
+    s = launched()
     collection = s.world.deploy("IconsCollection", s.studio, (s.owner, 10, s.owner, 500), sender=s.owner)
     icons = list(pieces("icons"))
     for piece in icons:

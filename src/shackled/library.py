@@ -13,7 +13,7 @@ from .datasets._pieces import pieces
 from .datasets.common._models import models
 from .deploy._contract import deployments
 from .errors import InputError
-from .scene._fit import fit
+from .scene._in_range import in_range
 from .scene._object import Material
 from .scene._scene import Scene
 from .studio._storage import STUDIO, StoreTransaction, store_scene
@@ -86,7 +86,7 @@ def chosen_items(names: Iterable[str]) -> list[Item]:
 
 def _item(piece: str, scene: Scene, studio: bytes) -> Item:
     transactions = store_scene(scene, studio)
-    fitted = fit(scene).objects
+    fitted = in_range(scene).objects
     # so that one box holds all meshes as they are
     assert all(np.array_equal(each.position, fitted[0].position) and each.scale == fitted[0].scale for each in fitted)
     points = np.concatenate([each.mesh.positions for each in fitted])

@@ -13,7 +13,7 @@ from PIL import Image as PillowImage
 import shackled
 from shackled import InputError, Scene
 from shackled.artifacts import artifact
-from shackled.bench import fits, scenes
+from shackled.bench import regression, scenes
 from shackled.bench._culling import culling
 from shackled.bench._measure import call_renderer, cost
 from shackled.bench._original import CODE_SIZES, original, original_gas
@@ -117,7 +117,7 @@ def test_triangles(made: Path) -> None:
     pixels = column(rows, "lit_pixels")
     # of the same shape and size, and none over another
     assert pixels == [pixels[0] * count for count in (1, 2, 3, 4)]
-    assert fits.fit([[1, 2, 3, 4]], column(rows, "gas")).r2 > 0.9999
+    assert regression.fit([[1, 2, 3, 4]], column(rows, "gas")).r2 > 0.9999
     assert "34.07%" not in (made / "triangles.md").read_text("utf-8")  # that is of 16
 
 
@@ -161,7 +161,7 @@ def test_linear(made: Path) -> None:
     rows = rows_of(made, "linear")
     squares = [row for row in rows if row["series"] == "unlit squares"]
     assert column(squares, "triangles") == [2, 162, 578]
-    assert fits.fit([column(squares, "triangles")], column(squares, "gas")).r2 > 0.98
+    assert regression.fit([column(squares, "triangles")], column(squares, "gas")).r2 > 0.98
     assert "| original: equal triangles | " in (made / "linear.md").read_text("utf-8")
     assert "0.988797" in (made / "linear.md").read_text("utf-8")
 

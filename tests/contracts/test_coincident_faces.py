@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from pictures import draw
 from shackled import Camera, Light, Material, Mesh, Object, Scene, Tone
 from shackled.scene._codec import Rectangle
-from shackled.scene._fit import fit
+from shackled.scene._in_range import in_range
 from shackled.scene._object import Shading
 
 Array = NDArray[np.float64]
@@ -50,7 +50,7 @@ def two_sides(rng: Rng, shading: Shading, order: int, **more: Any) -> tuple[Scen
 
 def assert_one_side(scene: Scene, channel: int) -> NDArray[np.uint8]:
     """Nothing of the other side is seen."""
-    picture = draw(fit(scene))
+    picture = draw(in_range(scene))
     assert picture[:, :, channel].any()
     assert not picture[:, :, 2 - channel].any()
     return picture
@@ -81,8 +81,8 @@ def test_cut_by_the_near_plane(order: int, antialias: bool) -> None:
         near = evolve(scene, camera=evolve(scene.camera, near=float(np.linalg.norm(scene.camera.eye))))
         picture = assert_one_side(near, channel)
         rows, columns = (slice(tile.y, tile.y + tile.height), slice(tile.x, tile.x + tile.width))
-        assert (draw(fit(near), tile) == picture[rows, columns]).all()
-        cut += (picture != draw(fit(scene))).any()
+        assert (draw(in_range(near), tile) == picture[rows, columns]).all()
+        cut += (picture != draw(in_range(scene))).any()
     assert cut > 6
 
 
@@ -91,4 +91,4 @@ def test_culled_faces_are_not_there() -> None:
     for seed in range(6):
         scene, channel = two_sides(np.random.default_rng([4, seed]), "flat", 1)
         culled = evolve(scene, objects=[evolve(o, cull=True) for o in scene.objects])
-        assert (draw(fit(scene)) == assert_one_side(culled, channel)).all()
+        assert (draw(in_range(scene)) == assert_one_side(culled, channel)).all()

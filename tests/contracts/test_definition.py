@@ -13,7 +13,7 @@ import picture
 from pictures import call_data, draw
 from random_scenes import TAME, random_scene
 from shackled import Scene
-from shackled.scene._fit import fit
+from shackled.scene._in_range import in_range
 
 FILE = Path(picture.__file__)
 #: The most lines: it is read in one sitting.
@@ -30,7 +30,7 @@ def scenes(kind: str) -> list[Scene]:
     seed = 0
     while len(found) < SCENES:
         seed += 1
-        scene = fit(random_scene(kind, seed))
+        scene = in_range(random_scene(kind, seed))
         if scene.triangles <= (SHADOWED if any(light.shadow for light in scene.lights) else TRIANGLES):
             found.append(scene)
     return found

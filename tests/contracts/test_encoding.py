@@ -15,13 +15,13 @@ from PIL import Image as PillowImage
 from made_scenes import flat, teapot_scene
 from pictures import Pixels, call, counts, covered, draw, dynamic, soup, unlit_scene
 from shackled import Background, Camera, Scene
-from shackled.scene._fit import fit
+from shackled.scene._in_range import in_range
 
 SVG = "{http://www.w3.org/2000/svg}"
 
 
 def scene_of_size(width: int, height: int) -> Scene:
-    return evolve(fit(flat(teapot_scene())), width=width, height=height)
+    return evolve(in_range(flat(teapot_scene())), width=width, height=height)
 
 
 def decode(data: bytes) -> Pixels:

@@ -23,7 +23,7 @@ from shackled.datasets.common import shapes
 from shackled.image import decode_bmp
 from shackled.scene import encode
 from shackled.scene._codec import Rectangle, extensions, render_call
-from shackled.scene._fit import fit
+from shackled.scene._in_range import in_range
 from shackled.studio._storage import quantize
 from stored_scenes import stored
 
@@ -223,7 +223,7 @@ def test_engines_of_a_call(changes: dict[str, object], needed: tuple[str, ...]) 
 
 
 def test_engines_of_other_calls() -> None:
-    scene = fit(Scene([DULL, evolve(DULL, opacity=0.5)], antialias=True))
+    scene = in_range(Scene([DULL, evolve(DULL, opacity=0.5)], antialias=True))
     tile = encode(artifact("Renderer").selectors["renderTile"], scene, Rectangle(0, 0, 8, 8))
     assert found(tile) == FOUR_SAMPLES
     for data in (b"", bytes(4), bytes(100)):

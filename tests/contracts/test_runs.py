@@ -1,4 +1,4 @@
-"""Scenes of objects that different engines draw, run by run: as the judge says, which knows of no runs."""
+"""Scenes that need several engines look as the judge says; the judge knows no runs."""
 
 from __future__ import annotations
 

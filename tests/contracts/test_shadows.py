@@ -13,7 +13,7 @@ from attrs import evolve
 from pictures import draw
 from shackled import Camera, Ground, InputError, Light, Material, Mesh, Object, Scene, Tone, load
 from shackled.datasets.common import shapes
-from shackled.scene._fit import fit
+from shackled.scene._in_range import in_range
 from shackled.scene._staging import painted
 
 SIZE = 40
@@ -46,7 +46,7 @@ def test_a_ground_fades() -> None:
     floor = Ground("#ffffff", height=0.0, radius=2.0)
     camera = Camera((0, 10, 0.001), (0, 0, 0), half_height=3, projection="orthographic")
     scene = Scene([], camera, [SUN], "#000000", ground=floor, width=61, height=61)
-    row = draw(fit(scene))[30, :, 0].astype(int)
+    row = draw(in_range(scene))[30, :, 0].astype(int)
     assert row[30] > 200
     assert (np.diff(row[:31]) >= 0).all()
     assert row[9] == 0 < row[12]
@@ -89,7 +89,7 @@ def scene_of(objects: list[Object], light: Light) -> Scene:
 def test_any_order(light: Light) -> None:
     """A later object may hide samples of a fragment that is partly in shadow: the picture is the same in any order."""
     objects = [box((4, 0.4, 4)), box((1, 2, 1), (0, 0.3, 0)), box((0.8, 0.9, 0.7), (0.1, 0.3, 1.0))]
-    first, *others = (draw(fit(scene_of(list(each), light))) for each in permutations(objects))
+    first, *others = (draw(in_range(scene_of(list(each), light))) for each in permutations(objects))
     assert all((each == first).all() for each in others)
 
 
@@ -98,7 +98,7 @@ def test_the_tone_curve_comes_first(tone: Tone) -> None:
     """Pixels at the edge of a shadow are means of what is displayed, as those at outlines are."""
     light = Light("directional", (0, 1, -1), shadow=True)
     scene = evolve(scene_of([box((60, 0.4, 60)), box((1, 0.2, 1), (0.2, 6, -4.5))], light), tone=tone)
-    levels, numbers = np.unique(draw(fit(scene))[:, :, 0], return_counts=True)
+    levels, numbers = np.unique(draw(in_range(scene))[:, :, 0], return_counts=True)
     low, high = levels[numbers > 100].astype(float)
     assert high - low > 40
     near = np.abs(levels[:, None] - np.linspace(low, high, 5)) <= 1

@@ -18,7 +18,7 @@ from shackled.artifacts import artifact
 from shackled.datasets import teapot
 from shackled.scene import Hemisphere
 from shackled.scene._arithmetic import from_euler, rotate
-from shackled.scene._fit import fit
+from shackled.scene._in_range import in_range
 from shackled.scene._look import MOST_TWO_SIDED, look_at
 from shackled.scene._mesh import vertex_normals
 from shackled.scene._object import Shading
@@ -123,7 +123,7 @@ def test_both_sides_of_a_sheet(look: str, eye: tuple[float, float, float]) -> No
 
     def picture(mesh: Mesh, two_sided: bool) -> Pixels:
         thing = Object(mesh, material=Material(**material), cull=False, two_sided=two_sided, **fields)
-        return draw(fit(evolve(scene, objects=[thing])))
+        return draw(in_range(evolve(scene, objects=[thing])))
 
     right = picture(sheet, False)
     assert np.array_equal(picture(sheet, True), right)

@@ -16,14 +16,14 @@ from shackled import Background, Camera, Material, Mesh, Object, RenderError, Sc
 from shackled.image import decode_bmp
 from shackled.parallel._tiles import grid
 from shackled.scene._codec import Rectangle
-from shackled.scene._fit import fit
+from shackled.scene._in_range import in_range
 
 SIDE, ACROSS = 80, 4
 
 
 def ready(scene: Scene, **changes: Any) -> Scene:
     """With whole coordinates, and a near plane."""
-    return fit(evolve(scene, width=SIDE, height=SIDE, **changes))
+    return in_range(evolve(scene, width=SIDE, height=SIDE, **changes))
 
 
 def objects(scene: Scene, **changes: Any) -> Scene:
@@ -174,7 +174,7 @@ def test_a_call_without_padding_at_its_end() -> None:
 def test_the_number_of_a_bad_object_counts_those_that_are_left_out() -> None:
     square = Mesh([[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], [[0, 1, 2], [0, 2, 3]])
     good = ready(moved(flat(teapot_scene(1)), (100, 0, 0)))
-    # fit() refuses what is wrong, so the number is changed in the call
+    # in_range() refuses what is wrong, so the number is changed in the call
     scene = evolve(good, objects=[*good.objects, Object(square, material=Material("unlit"))])
     tile = Rectangle(0, 0, 8, 8)
     data = call_data("renderTile", scene, tile)

@@ -11,7 +11,7 @@ from random_scenes import random_case
 from shackled import Camera, Light, Material, Mesh, Object, Scene, load
 from shackled.parallel._tiles import grid
 from shackled.scene._codec import Rectangle
-from shackled.scene._fit import fit
+from shackled.scene._in_range import in_range
 
 SIZE = 64
 LAMP = Light("point", (300, 200, -600))
@@ -118,5 +118,5 @@ def test_parts_cost_the_whole_and_what_each_needs() -> None:
 
 @pytest.mark.parametrize("side", [32, 64, 128])
 def test_a_tile_of_nearly_all_costs_hardly_more_than_the_whole(side: int) -> None:
-    scene = fit(evolve(load("teapot"), width=side, height=side))
+    scene = in_range(evolve(load("teapot"), width=side, height=side))
     assert gas(scene, Rectangle(0, 0, side, side - 1)) <= 1.08 * gas(scene)

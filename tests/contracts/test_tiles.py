@@ -13,7 +13,7 @@ from pictures import draw
 from random_scenes import KINDS, random_case
 from shackled import Camera, Light, Material, Mesh, Object, Scene
 from shackled.scene._codec import Rectangle
-from shackled.scene._fit import fit
+from shackled.scene._in_range import in_range
 
 
 def cut(rng: Generator, tile: Rectangle, depth: int) -> Iterator[Rectangle]:
@@ -71,7 +71,7 @@ def test_a_tile_of_a_fan_of_fans() -> None:
     mesh = Mesh(points, faces, rng.integers(0, 256, points.shape), np.tile([0, 0, 1], (len(points), 1)))
     thing = Object(mesh, (0, 0, -2500), material=Material("smooth"))
     lights = [Light.directional(toward=(1, 2, 3))]
-    scene = fit(Scene([thing], Camera(), lights, "black", width=96, height=96, antialias=True))
+    scene = in_range(Scene([thing], Camera(), lights, "black", width=96, height=96, antialias=True))
     assert_tiles_are_parts(scene, (Rectangle(x, y, 16, 16) for x in range(0, 96, 16) for y in range(0, 96, 16)))
 
 

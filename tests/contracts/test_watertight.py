@@ -23,7 +23,7 @@ from pictures import (
 )
 from shackled import Camera, Light, Material, Mesh, Object, Scene
 from shackled.datasets.common import shapes
-from shackled.scene._fit import fit
+from shackled.scene._in_range import in_range
 
 Array = NDArray[np.float64]
 Integers = NDArray[np.int64]
@@ -192,7 +192,7 @@ def test_each_sample_of_a_smooth_surface_is_covered_once(mesh: Mesh) -> None:
         eye = direction / np.linalg.norm(direction) * 1000 * (1.05 if i % 3 == 2 else rng.uniform(1.8, 4))
         camera = Camera(tuple(eye), tuple(rng.normal(size=3) * 125), near=20)
         sun = Light("directional", (1, 2, 3))
-        scene = fit(Scene([thing], camera, [sun], "black", width=48, height=48, antialias=True))
+        scene = in_range(Scene([thing], camera, [sun], "black", width=48, height=48, antialias=True))
         expected = render(call_data("render", scene))
         # samples that are covered twice or never, or beyond the silhouette, are a quarter of white off
         assert outside(draw(scene), expected.low, expected.high).max() <= 1
@@ -208,6 +208,6 @@ def test_the_edges_of_a_fan_with_gaps_are_open(count: int) -> None:
     mesh = recolored(Mesh(points, faces, normals=[(0, 0, 1)] * len(points)), WHITE)
     sun = Light("directional", (1, 2, 3))
     thing = Object(mesh, (0, 0, -2500), material=PLAIN)
-    scene = fit(Scene([thing], Camera(), [sun], "black", width=64, height=64, antialias=True))
+    scene = in_range(Scene([thing], Camera(), [sun], "black", width=64, height=64, antialias=True))
     expected = render(call_data("render", scene))
     assert outside(draw(scene), expected.low, expected.high).max() <= 1

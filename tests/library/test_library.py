@@ -25,7 +25,7 @@ from shackled.evm._instance import Status
 from shackled.image import decode_bmp
 from shackled.library import chosen_items, items
 from shackled.scene._codec import encode_scene
-from shackled.scene._fit import fit
+from shackled.scene._in_range import in_range
 
 #: The first byte of a pointer to a mesh (contracts/src/mesh/Kinds.sol).
 POINTED = 0x12
@@ -68,7 +68,7 @@ def test_objects_that_fit(shelf: Shelf, name: str) -> None:
     objects = call(shelf, "Library", "objects", name, 100 << 32)
     interface = artifact("Renderer").interface
     struct = interface.parameter_type("render")
-    (scene,) = decode_abi([struct], word(32) + encode_scene(fit(item.scene)))
+    (scene,) = decode_abi([struct], word(32) + encode_scene(in_range(item.scene)))
     assert [each[0] for each in objects] == [bytes([POINTED]) + mesh for mesh in item.meshes]
     for (_, position, rotation, scale, material, flags), expected in zip(objects, scene[-2], strict=True):
         sides = (item.high - item.low) * scale / 2**32

@@ -23,7 +23,7 @@ from shackled.artifacts import RENDERER
 from shackled.chain._chain import returned_bytes
 from shackled.gas import render_call
 from shackled.scene._codec import extensions
-from shackled.scene._fit import fit
+from shackled.scene._in_range import in_range
 from shackled.scene._packed import pack
 from shackled.web._page import asset
 
@@ -137,7 +137,7 @@ def test_the_solidity_programs_make_the_picture(programs: dict[str, dict[str, An
         )
         kinds = signature.partition("(")[2][:-1]
         (tmp_path / "a.json").write_text(made["scene"])
-        fitted = fit(load(tmp_path / "a.json"))
+        fitted = in_range(load(tmp_path / "a.json"))
         meshes = [pack(o.mesh, smooth=o.material.shading == "smooth") for o in fitted.objects]
         arguments = encode_abi(kinds.split(","), [meshes, extensions(fitted)]) if kinds else b""
         assert bool(kinds) == (name == "given meshes")

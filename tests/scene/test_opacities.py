@@ -20,8 +20,8 @@ from shackled.scene import decode
 from shackled.scene._codec import extensions, render_call
 from shackled.scene._crease import creased
 from shackled.scene._files.model import MeshPart
-from shackled.scene._fit import fit
 from shackled.scene._from_trimesh import objects_of, part_of
+from shackled.scene._in_range import in_range
 from shackled.scene._mesh import weld
 from shackled.scene._simplify import simplify
 
@@ -43,7 +43,7 @@ def scene_of(*objects: Object, **changes: Any) -> Scene:
 
 
 def pixels(scene: Scene) -> NDArray[np.int64]:
-    return draw(fit(scene)).astype(int)
+    return draw(in_range(scene)).astype(int)
 
 
 def test_they_are_multiples_of_a_255th() -> None:

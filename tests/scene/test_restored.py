@@ -35,7 +35,7 @@ from shackled.scene import Hemisphere, decode
 from shackled.scene._camera import Projection
 from shackled.scene._codec import render_call
 from shackled.scene._files.scene_file import read_scene
-from shackled.scene._fit import MAX_COORDINATE, _factor, _is_exact, _prepared
+from shackled.scene._in_range import MAX_COORDINATE, _factor, _is_exact, _prepared
 from shackled.scene._object import SHADINGS, Shading
 from shackled.scene._texture import FILTERS, WRAPS
 

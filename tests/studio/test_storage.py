@@ -22,7 +22,7 @@ from shackled.errors import RenderError, VerificationError
 from shackled.ethereum._encoding import intrinsic_gas
 from shackled.scene import stage
 from shackled.scene._arithmetic import from_euler, rotate
-from shackled.scene._fit import fit
+from shackled.scene._in_range import in_range
 from shackled.scene._packed import pack
 from shackled.studio import store_scene
 from shackled.studio._compact_mesh import compact, split_mesh
@@ -166,7 +166,7 @@ class Store:
 
     def scene(self, meshes: list[bytes]) -> bytes:
         mesh = Mesh([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
-        scene = fit(Scene([Object(mesh, (0, 0, -5))] * len(meshes)))
+        scene = in_range(Scene([Object(mesh, (0, 0, -5))] * len(meshes)))
         return self.put(bytes([SCENE]) + compress_zeros((32).to_bytes(32, "big") + encode_with_pointers(scene, meshes)))
 
     def read(self, pointer: bytes) -> dict[bytes, bytes]:

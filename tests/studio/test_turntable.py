@@ -23,7 +23,7 @@ from shackled.ethereum._encoding import word
 from shackled.image import decode_bmp
 from shackled.scene._arithmetic import from_euler
 from shackled.scene._codec import encode_scene
-from shackled.scene._fit import fit
+from shackled.scene._in_range import in_range
 from shackled.scene._packed import pack
 from stored_scenes import CHANGES, SCENE_STRUCT, Pixels, changes, frames_of, stored, turned
 
@@ -50,7 +50,7 @@ def data_of(
 ) -> bytes:
     """Data of a call of `animate`."""
     values = encode([SPIN], [(frames, delay, scale, axis, hold)])
-    return artifact("Turntable").selectors["animate"] + word(256) + values + encode_scene(fit(scene))
+    return artifact("Turntable").selectors["animate"] + word(256) + values + encode_scene(in_range(scene))
 
 
 def animate(scene: Scene, **spin: Any) -> bytes:
@@ -209,7 +209,7 @@ def test_what_is_refused(spin: dict[str, Any], error: str) -> None:
 )
 def test_a_scene_that_cannot_be_drawn_is_refused(change: Any, error: str, hold: bool) -> None:
     """With the error of the renderer, whatever is computed before."""
-    (struct_,) = decode([SCENE_STRUCT], word(32) + encode_scene(fit(SCENE)))
+    (struct_,) = decode([SCENE_STRUCT], word(32) + encode_scene(in_range(SCENE)))
     data = call_data(f"animate({SCENE_STRUCT},{SPIN})", change(struct_), (2, 50, 1, UPRIGHT, hold))
     with pytest.raises(RenderError) as caught:
         open_chain().call("Turntable", data)

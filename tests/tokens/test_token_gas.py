@@ -13,8 +13,8 @@ pytest.importorskip("pyrevm", reason="a chain with state needs it")
 from attrs import evolve
 from benchmarks import icons, tokens
 from benchmarks.snapshot import changes
+from tools.tokens.launched import ALLOW_LIST, ICONS, PRICE, PUBLIC, icon_scene, launched, store_scene
 from tools.tokens.merkle import proof_of, root_of
-from tools.tokens.stage import ALLOW_LIST, ICONS, PRICE, PUBLIC, icon_scene, stage, store_scene
 from tools.tokens.world import Contract, account
 
 from shackled.chain import Connection
@@ -75,7 +75,7 @@ def test_models_would_not_fit_beside_all_pictures() -> None:
 
 
 def test_the_usual_gas_of_each_function() -> None:
-    s = stage()
+    s = launched()
     new = s.world.deploy("IconsCollection", s.studio, (s.owner, 10, s.owner, 500), sender=s.owner)
     pointer = store_scene(s.studio, icon_scene("icons/lightning"))
     listed = {s.alice: 20} | {account(f"listed {number}"): 2 for number in range(99)}

@@ -8,8 +8,8 @@ import pytest
 
 pytest.importorskip("pyrevm", reason="a chain with state needs it")
 
+from tools.tokens.launched import ALLOW_LIST, PUBLIC
 from tools.tokens.merkle import proof_of, root_of
-from tools.tokens.stage import ALLOW_LIST, PUBLIC
 from tools.tokens.world import HISTORY, HISTORY_LENGTH, ZERO, Contract, World, account, keccak
 from web3 import Web3
 

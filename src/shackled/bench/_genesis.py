@@ -13,7 +13,7 @@ from ._measure import cost
 from ._original import Measured, original
 from ._report import ORIGINAL, OURS, THIRD, ExperimentReport, millions, table
 from ._runner import Runner
-from .fits import Column, fit
+from .regression import Column, fit
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

@@ -17,7 +17,7 @@ from ..scene._light import Light
 from ..scene._mesh import Mesh
 from ..scene._object import Material, Object
 from ..scene._scene import Scene
-from .fits import Column
+from .regression import Column
 
 NIGHT = Background((0, 0, 40), (0, 0, 160))
 SUN = Light("directional", (1, 2, 3))

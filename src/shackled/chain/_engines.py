@@ -18,7 +18,7 @@ EFFECTS, PLAIN = ("EffectsEngine", "Effects"), ("Engine", "FragmentEngine")
 
 @lru_cache(4)
 def engines(scene: bytes, chain: ContractChain) -> tuple[str, ...]:
-    """Return the contracts that may draw an ABI-encoded scene; those of plain scenes if it is none.
+    """Return the contracts that may draw an ABI-encoded scene; those of plain scenes if the bytes are no scene.
 
     Of the three for antialiased scenes only those that are needed: together they leave little space in a creation call.
     """

@@ -18,7 +18,7 @@ from ..chain._chain import Drawing
 from ..errors import ChainError, InputError
 from ..image import decode_bmp
 from ..scene._codec import encode_scene
-from ..scene._fit import fit
+from ..scene._in_range import in_range
 from ..scene._scene import Scene
 from ._backends import Part
 
@@ -56,7 +56,7 @@ class PartStore:
         """
         self.folder = folder
         self._frames = frames
-        self._scenes = [hashlib.sha256(encode_scene(fit(scene))).digest() for scene in frames]
+        self._scenes = [hashlib.sha256(encode_scene(in_range(scene))).digest() for scene in frames]
         self._salt = contracts_digest() + bytes([compared])
         make_output_folder(folder)
 

@@ -32,8 +32,8 @@ from ._codec import (
 )
 from ._effects import Background, Fog, Hemisphere, Rim, Tone
 from ._files.table import about
-from ._fit import MAX_COORDINATE
 from ._ground import Ground
+from ._in_range import MAX_COORDINATE
 from ._light import Light
 from ._object import Material, Object
 from ._packed import unpack, unpack_alpha, unpack_texture

@@ -23,7 +23,7 @@ WHITE = (255, 255, 255)
 #: The most lights of a scene.
 MAX_LIGHTS = 4
 
-Part = TypeVar("Part")
+Item = TypeVar("Item")
 
 
 _TOWARD = "toward=, the way from the scene to the light, or direction=, the way in which its light travels"
@@ -143,7 +143,7 @@ def lights_of(value: Light | Iterable[Light] | None) -> tuple[Light, ...]:
     return tuple(instance(part, f"lights[{index}] of a scene", Light) for index, part in enumerate(lights))
 
 
-def parts_of(parts: Iterable[Part], name: str, kind: str) -> list[Part]:
+def parts_of(parts: Iterable[Item], name: str, kind: str) -> list[Item]:
     """Return parts of a scene as a list. InputError for what is none; name, kind: of the parts, for the message."""
     try:
         if not isinstance(parts, str | Mapping):

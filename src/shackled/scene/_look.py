@@ -15,12 +15,12 @@ from ._arithmetic import IDENTITY, dot, length, multiply, rotate
 from ._camera import DEFAULT_HALF_HEIGHT, Camera, Projection, half_height_in
 from ._crease import is_flat, shaded, with_normals
 from ._effects import Fog, Tone
-from ._fit import NEAR_PART
+from ._in_range import NEAR_PART
 from ._mesh import Mesh
 from ._object import Material, Object
 from ._presets import preset_of
 from ._scene import Scene
-from ._settings import ALL, LookOptions, Part, checked_look, settings_of, size_of
+from ._settings import ALL, LookOptions, ScenePart, checked_look, settings_of, size_of
 from ._simplify import simplify_scene
 from ._staging import (
     MESH_STAGING,
@@ -307,5 +307,5 @@ def _to_be_seen(scene: Scene, points: Floats) -> Floats:
     return np.concatenate(seen)
 
 
-def _given(look: Mapping[str, Any], part: Part) -> dict[str, Any]:
+def _given(look: Mapping[str, Any], part: ScenePart) -> dict[str, Any]:
     return {setting.name: look[setting.name] for setting in settings_of(part) if setting.name in look}

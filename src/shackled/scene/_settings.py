@@ -36,7 +36,7 @@ from ._upright import AXES, Axis, upright
 
 #: What a setting is a field of; "camera" also has settings from which a camera is made, "file" those that say what is
 #: read of a glTF file.
-Part = Literal["scene", "camera", "object", "material", "tone", "file"]
+ScenePart = Literal["scene", "camera", "object", "material", "tone", "file"]
 _Plain = Literal["size", "whole", "count", "number", "vector", "rotation", "flag", "color", "choice", "entry"]
 Kind = _Plain | Literal["background", "lights", "hemisphere", "rim", "fog", "ground"]
 
@@ -51,7 +51,7 @@ class Setting:
 
     name: str
     kind: Kind
-    part: Part | None
+    part: ScenePart | None
     text: str
     limits: tuple[float, float] = (-math.inf, math.inf)
     unit: str = ""
@@ -310,7 +310,7 @@ SETTINGS = tuple(
 )
 
 
-def settings_of(part: Part) -> list[Setting]:
+def settings_of(part: ScenePart) -> list[Setting]:
     """Return the settings that are fields of a part of a scene."""
     return [setting for setting in SETTINGS if setting.part == part]
 

@@ -29,7 +29,7 @@ from .._look import view_of
 from .._mesh import Mesh
 from .._object import Material, Object
 from .._scene import Scene
-from .._settings import Kind, Part, exclude, settings_of
+from .._settings import Kind, ScenePart, exclude, settings_of
 from .._staging import BACKGROUND, DEFAULT_SIDE, Viewpoint, frame, painted_object, toward_viewer
 from .._texture import FILTERS, WRAPS, Texture
 from .._upright import AXES, axis_of_file, upright
@@ -116,7 +116,7 @@ def scene_of(document: Mapping[str, Any], sources: Sources) -> Scene:
     return Scene(objects, camera, width=width, height=height, **given)
 
 
-def _settings(keys: Table, part: Part) -> dict[str, Any]:
+def _settings(keys: Table, part: ScenePart) -> dict[str, Any]:
     """Return the settings of a part of a scene that a table has."""
     return {
         each.name: each.check(_READ[each.kind](keys, each.name), keys.place(each.name))

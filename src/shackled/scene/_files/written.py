@@ -14,14 +14,14 @@ from .._effects import Background, Fog, Hemisphere, Rim
 from .._ground import Ground
 from .._light import Light
 from .._object import Object
-from .._settings import Part, settings_of
+from .._settings import ScenePart, settings_of
 from .._texture import Texture
 
 #: The keys of a mesh.
 MESH = ("positions", "faces", "colors", "normals", "uvs", "opacities")
 
 
-def keys_of(part: Part, *before: str) -> tuple[str, ...]:
+def keys_of(part: ScenePart, *before: str) -> tuple[str, ...]:
     """Return the keys of a part of a scene, with some before them."""
     return (*before, *(setting.name for setting in settings_of(part)))
 
@@ -35,7 +35,7 @@ def _is_given(_: object, value: object) -> bool:
     return value is not None
 
 
-def fields_of(value: object, part: Part) -> dict[str, Any]:
+def fields_of(value: object, part: ScenePart) -> dict[str, Any]:
     """Return the settings that are fields of a value and not None; an object has no colour of its own."""
     fields = {name: getattr(value, name, None) for name in keys_of(part)}
     return {name: found for name, found in fields.items() if found is not None}

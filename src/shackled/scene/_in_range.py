@@ -51,7 +51,7 @@ DIRECTION_LENGTHS = (2.0**-8, 2.0**20)
 
 
 @np.errstate(over="ignore", invalid="ignore")
-def fit(scene: Scene) -> Scene:
+def in_range(scene: Scene) -> Scene:
     """Return the scene in the number ranges of the contracts; meshes that are too large become several objects."""
     _check_view(scene.camera)
     scene = _prepared(scene)

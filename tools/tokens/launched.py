@@ -24,7 +24,7 @@ ICONS = {"icons/lightning": ("Lightning", 12, 2, ETHER // 10), "icons/ethereum":
 
 
 @dataclass
-class Stage:
+class Launched:
     """The contracts and accounts of a world.
 
     The sales are public; round 0 of Genesis begins with the first block. Each account has 1,000 ether.
@@ -55,7 +55,7 @@ class Stage:
 
 
 @cache
-def _deployed(chain_id: int) -> Stage:
+def _deployed(chain_id: int) -> Launched:
     world = World(chain_id)
     owner, alice, bob = (world.fund(account(name)) for name in ("owner", "alice", "bob"))
     renderer = world.deploy("Renderer", *map(world.deploy, artifact("Renderer").parts))
@@ -72,7 +72,7 @@ def _deployed(chain_id: int) -> Stage:
         collection.send("add", title, pointer, 4, price, supply, reserve, sender=owner)
     collection.send("seal", sender=owner)
     collection.send("setPhase", PUBLIC, sender=owner)
-    return Stage(world, renderer, generator, metadata, genesis, studio, collection, owner, alice, bob)
+    return Launched(world, renderer, generator, metadata, genesis, studio, collection, owner, alice, bob)
 
 
 def icon_scene(name: str) -> Scene:
@@ -89,6 +89,6 @@ def store_scene(studio: Contract, scene: Scene) -> str:
     return "0x" + transactions[-1].pointer.hex()
 
 
-def stage(chain_id: int = 1) -> Stage:
-    """Return a new stage."""
+def launched(chain_id: int = 1) -> Launched:
+    """Return the contracts, newly deployed."""
     return copy.deepcopy(_deployed(chain_id))
