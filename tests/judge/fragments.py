@@ -20,11 +20,12 @@ from .visibility import AROUND, TOLERANCE, Seen
 from .world import Booleans, World
 
 #: Where pictures may differ from the formulas; docs/conformance.md has a row for each.
-#: slivers: a triangle of less than a pixel may have another colour. backs: a face that is seen from the side that is
-#: turned away from the light is not in shadow. fans: a clipped face is drawn as several triangles, and a pixel on an
-#: edge between them has a fragment of each. wires: the line of sight to a wire is that of another point of it. wholes: a
-#: pixel inside a smooth surface has the colour of the triangle that covers its first sample, or of a part of the
-#: surface next to it that is hidden.
+#: slivers: a triangle of less than a pixel may have another colour.
+#: backs: a face that is seen from the side that is turned away from the light is not in shadow.
+#: fans: a clipped face is drawn as several triangles; a pixel on an edge between them has a fragment of each.
+#: wires: the line of sight to a wire is that of another point of it.
+#: wholes: a pixel inside a smooth surface has the colour of the triangle that covers its first sample, or of a part of
+#: the surface next to it that is hidden.
 RULES = ("slivers", "backs", "fans", "wires", "wholes")
 #: The number of the last one.
 WHOLES = RULES.index("wholes")
