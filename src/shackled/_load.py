@@ -199,7 +199,7 @@ def read_posed(path: Path, look: Mapping[str, Any], pose: dict[str, Any]) -> lis
     return evolve(scene, camera=camera, lights=lights or scene.lights)
 
 
-def _piece(name: str) -> Scene:
+def piece_scene(name: str) -> Scene:
     return require(name).make()
 
 
@@ -208,9 +208,9 @@ def _made(thing: Any, look: Mapping[str, Any]) -> Mesh | list[Object] | Scene:
     if isinstance(thing, Mesh | Scene):
         return thing
     if isinstance(thing, Path):
-        return _model(thing, look) if format_of(thing) in READERS else read_scene(thing, _piece)
+        return _model(thing, look) if format_of(thing) in READERS else read_scene(thing, piece_scene)
     if isinstance(thing, Link):
-        return thing.scene(_piece)
+        return thing.scene(piece_scene)
     if isinstance(thing, Piece):
         return evolve(thing.make(), width=MESH_STAGING.side, height=MESH_STAGING.side, antialias=True)
     if isinstance(thing, Object):

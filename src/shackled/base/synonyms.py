@@ -178,7 +178,7 @@ def with_synonyms(*more: str, read: Callable[[Given], Given] | None = None) -> C
                 raise KeywordError(text) from None
 
         if not is_class:
-            return understanding  # type: ignore[return-value]
+            return understanding
 
         def refuse(self: Any, name: str, *value: Any) -> None:
             error = FrozenInstanceError()

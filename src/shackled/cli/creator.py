@@ -83,7 +83,7 @@ def first_answers(input: str | None, page: Path) -> tuple[dict[str, Path | bytes
         return answers, ""
     source = locate(input)
     if isinstance(source, Link):
-        source.scene()
+        load(input)  # refuses a damaged one
         return answers, "#" + source.text.rpartition("#")[2]
     seed = re.fullmatch(r"genesis/(\d+)", input)
     # the page knows them by their seeds
