@@ -150,7 +150,7 @@ def with_synonyms(*more: str, read: Callable[[Given], Given] | None = None) -> C
 
     def decorated(made: Made) -> Made:
         is_class = isinstance(made, type)
-        function: Any = made.__init__ if is_class else made  # type: ignore[misc]
+        function: Any = made.__init__ if is_class else made
         kinds = {name: each.kind for name, each in signature(function).parameters.items()}
         positional = [name for name, kind in kinds.items() if kind is Parameter.POSITIONAL_OR_KEYWORD]
         by_name = [name for name, kind in kinds.items() if kind is Parameter.KEYWORD_ONLY]
@@ -178,7 +178,7 @@ def with_synonyms(*more: str, read: Callable[[Given], Given] | None = None) -> C
                 raise KeywordError(text) from None
 
         if not is_class:
-            return understanding
+            return understanding  # type: ignore[return-value]
 
         def refuse(self: Any, name: str, *value: Any) -> None:
             error = FrozenInstanceError()
