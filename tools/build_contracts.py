@@ -302,7 +302,7 @@ def functions_of(groups: Sequence[str]) -> dict[str, list[list[Any]]]:
 def source_maps(answer: dict[str, Any], functions: dict[str, list[list[Any]]]) -> dict[str, Any]:
     """Return each contract's source map and the positions of its functions, and the functions of each source.
 
-    As `shackled.gas.source_map` reads it. Places in sources are in bytes of UTF-8.
+    As `shackled.gas._source_map` reads it. Places in sources are in bytes of UTF-8.
     """
     maps, used = {}, set()
     for contracts in answer["contracts"].values():
