@@ -54,7 +54,7 @@ creator: page ## open the Creator in the browser
 check: $(NODE) lint ## check an edit: style, types, and the tests without the marks slow, browser, node
 	@$(MAKE) CHECKS=1 --jobs 2 --no-print-directory types fast
 
-# the tests wait for nodes and browsers much of the time, in which the other checks run
+# the tests wait for nodes and browsers much of the time, in which other tests and the other checks run
 test: $(NODE) lint browser opengl rust ## run all checks and tests
 	@$(MAKE) CHECKS=1 --jobs 2 --no-print-directory contracts types unit evm-check web docs
 	@echo "all checks and tests passed"
@@ -87,7 +87,7 @@ fast: $(NODE) $(DEV)
 	$(BIN)/pytest -n 2 --dist worksteal -m "not slow and not browser and not node"
 
 unit: $(NODE) page $(DEV) browser opengl ## run the tests of Python and of the contracts
-	$(BIN)/pytest -n 2 --dist worksteal
+	$(BIN)/pytest -n 3 --dist worksteal
 
 # ---- what is made and kept in the repository ----
 
