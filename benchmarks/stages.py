@@ -11,6 +11,7 @@ import argparse
 
 from shackled import Scene, load
 from shackled.bench._report import millions, table
+from shackled.chain import _layout as layout
 from shackled.gas import profile
 from shackled.gas._stages import STAGES
 
@@ -32,7 +33,6 @@ DIRECTIONAL_PIXEL = 300
 POINT_PIXEL = 680
 #: Memory for a depth of 8 bytes; there are no more than the pixels of a band.
 DEPTH_MEMORY = 2.75
-BAND_PIXELS = 16384
 
 
 def gas_by_stage(scene: Scene) -> dict[str, int]:
@@ -48,7 +48,7 @@ def floor_of(scene: Scene, work: Workload) -> dict[str, int]:
         "primitive assembly": FACE * work.faces,
         "triangle set-up": TRIANGLE * work.drawn,
         "rows of plain triangles": ROW * work.rows + TESTED_PIXEL * work.tested,
-        "calls, bands, memory": round(DEPTH_MEMORY * min(work.canvas, BAND_PIXELS)),
+        "calls, bands, memory": round(DEPTH_MEMORY * min(work.canvas, layout.BAND_PIXELS)),
     }
     if scene.lights and "flat" in shadings:
         floor["shading set-up"] = LIT_TRIANGLE * work.drawn

@@ -3,7 +3,8 @@
 python -m benchmarks.view [--seconds 6] [--element] [--write]
 
 The element: the teapot of the datasets, 128 x 128 pixels without antialiasing, as it is and smooth. Half the time
-passes before frames are counted: the browser first compiles what runs often. --element: nothing else.
+passes before frames are counted: the browser first compiles what runs often. Then the default look at 256 x 256 pixels,
+with compiled contracts and in the interpreter, in turns: the time of drawing. --element: nothing else.
 
 The Creator, from a static server: the milliseconds until its first picture, with the bytes and requests for it; frames
 a second and their size while the first picture, and the teapot, are dragged. --write: puts it into view.json, under
@@ -27,10 +28,9 @@ from typing import Any
 from tools.page_server import chromium, static
 
 from shackled import load
-from shackled.artifacts import artifact
 from shackled.datasets._pieces import require
 from shackled.evm._module import module_bytes
-from shackled.scene import encode
+from shackled.scene._codec import render_call
 
 from . import run_main
 
@@ -56,30 +56,49 @@ TURN = """milliseconds => new Promise(resolve => {
 })"""
 
 
-def page(call: bytes, attributes: str = "") -> str:
-    """Return an HTML page that holds a view of a call, and all that it needs. attributes: of the element."""
+#: Turns the scene so often, each time until its picture is drawn at rest; returns the milliseconds of the second half.
+DRAW = """count => new Promise(resolve => {
+    const view = document.querySelector('shackled-view');
+    const drawn = [];
+    view.addEventListener('picture', ({detail}) => {
+        drawn.push(detail.milliseconds);
+        if (drawn.length === count) resolve(drawn.slice(count / 2));
+        else view.turn = {azimuth: 9 * drawn.length, elevation: 10};
+    });
+    view.turn = {azimuth: 1, elevation: 10};
+})"""
+
+
+def page(call: bytes, attributes: str = "", compiles: bool = True) -> str:
+    """Return an HTML page that holds a view of a call, and all that it needs.
+
+    attributes: of the element. compiles: otherwise WebAssembly is said to have no tail calls.
+    """
 
     def script(name: str, content: bytes) -> str:
         packed = base64.b64encode(gzip.compress(content, 9, mtime=0)).decode()
         return f'<script type="text/plain" id="{name}">{packed}</script>'
 
     folder = files("shackled") / "web"
+    view = (folder / "view.js").read_text("utf-8")
+    assert "WebAssembly.validate(" in view
+    if not compiles:
+        view = view.replace("WebAssembly.validate(", "(()=>false)(")
     return f"""<!doctype html>
 <meta charset="utf-8">
 <shackled-view src="#scene" evm="#evm" contracts="#contracts" {attributes}></shackled-view>
 {script("scene", call)}
 {script("evm", module_bytes())}
 {script("contracts", (folder / "contracts.json").read_bytes())}
-<script type="module">{(folder / "view.js").read_text("utf-8")}</script>
+<script type="module">{view}</script>
 """
 
 
-def measure(browser: Any, smooth: bool, seconds: float) -> dict[str, Any]:
-    """Return the frames a second, and their size."""
-    scene = load(require("teapot").make(), smooth=smooth)
+def run(browser: Any, html: str, script: str, argument: float) -> Any:
+    """Return what a script returns in a page, once its picture is there."""
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "page.html"
-        path.write_text(page(encode(artifact("Renderer").selectors["render"], scene)), "utf-8")
+        path.write_text(html, "utf-8")
         tab = browser.new_page(viewport={"width": 480, "height": 600})
         tab.goto(path.as_uri())
         tab.wait_for_function(
@@ -87,9 +106,28 @@ def measure(browser: Any, smooth: bool, seconds: float) -> dict[str, Any]:
         )
         # the element measures its speed
         tab.wait_for_timeout(1000)
-        found: dict[str, Any] = tab.evaluate(TURN, 1000 * seconds)
+        found = tab.evaluate(script, argument)
         tab.close()
     return found
+
+
+#: Rounds and turns of the time of drawing.
+ROUNDS, TURNS = 5, 24
+
+
+def drawing(browser: Any, seconds: float) -> str:
+    """Return what compiled contracts save, in one line."""
+    call = render_call(load("teapot", 256))
+    times: dict[bool, list[float]] = {True: [], False: []}
+    for _ in range(ROUNDS):
+        for compiles, each in times.items():
+            each += run(browser, page(call, "exact", compiles), DRAW, TURNS)
+    compiled, interpreted = statistics.median(times[True]), statistics.median(times[False])
+    rate = run(browser, page(call), TURN, 1000 * seconds)
+    return (
+        f"teapot, default look, 256 x 256 pixels: {compiled:.1f} ms compiled, {interpreted:.1f} ms interpreted, ratio "
+        f"{compiled / interpreted:.2f}; while it turns {rate['rate']:.1f} frames a second of {rate['size']} pixels"
+    )
 
 
 # ---- the Creator ----
@@ -182,9 +220,11 @@ def main() -> None:
     options = parser.parse_args()
     with chromium() as browser:
         for smooth in (False, True):
-            found = measure(browser, smooth, options.seconds)
+            call = render_call(load(require("teapot").make(), smooth=smooth))
+            found = run(browser, page(call), TURN, 1000 * options.seconds)
             name = "smooth" if smooth else "flat"
             print(f"teapot, {name}: {found['rate']:.1f} frames a second of {found['size']} pixels")
+        print(drawing(browser, options.seconds))
         if not options.element:
             with static() as server:
                 after = measure_creator(browser, server.address, options.seconds, TEAPOT)

@@ -288,9 +288,9 @@ def fill(scene: Record, solid: Record, shadow: Shadow, triangle: Record, nearnes
     lit, dark, opacity = shade(scene, solid, np.broadcast_to(triangle.face, weights.shape), weights)
     color = np.broadcast_to(lit[:, None], (*covered.shape, 3))
     if shadow.light is not None and solid.shading != UNLIT and not solid.is_wire:
-        corners = solid.points[triangle.face]
-        at = weights_at(scene.camera, triangle, (centers[pixels] + samples).reshape(-1, 2)) @ corners
-        color = np.where(shadow.on(at, corners).reshape(covered.shape)[..., None], dark[:, None], color)
+        places = (centers[pixels] + samples).reshape(-1, 2)
+        at = weights_at(scene.camera, triangle, places) @ solid.points[triangle.face]
+        color = np.where(shadow.on(at).reshape(covered.shape)[..., None], dark[:, None], color)
     # a texel of alpha 0 hides nothing; a vertex of opacity 0 hides what is behind it in its own object, or drawn later
     shown = visible[pixels] & ((opacity > 0) | (solid.texture is None))[:, None]
     new = np.concatenate([color, np.broadcast_to(opacity[:, None, None], (*covered.shape, 1))], axis=-1)
@@ -438,7 +438,7 @@ class Shadow:
 
     def __init__(self, scene: Record) -> None:
         """Find the planes (n, 4, 4) of the faces that cast shadows, positive inside of the shadow."""
-        self.light, self.camera, planes = scene.shadow_light, scene.camera, []
+        self.light, planes = scene.shadow_light, []
         for solid in scene.objects if self.light is not None else ():
             for corners in solid.points[solid.faces] if solid.is_opaque and not solid.is_wire else ():
                 ways = toward(self.light, corners)
@@ -452,11 +452,8 @@ class Shadow:
         self.planes = np.reshape(planes, (-1, 4, 4))
         self.slack = 2.0**-30 * max((np.abs(each.points).max(initial=0) for each in scene.objects), default=1)
 
-    def on(self, points: Array, corners: Array) -> NDArray[np.bool_]:
-        """Return which points of a face are in shadow; none are where the eye and the light are on different sides."""
-        normal = np.cross(corners[1] - corners[0], corners[2] - corners[0])
-        if (normal @ toward(self.light, corners)[0]) * (normal @ self.camera.toward(corners)[0]) <= 0:
-            return np.zeros(len(points), bool)
+    def on(self, points: Array) -> NDArray[np.bool_]:
+        """Return which points (n, 3) are in shadow."""
         inside = points @ self.planes[..., :3].transpose(0, 2, 1) + self.planes[:, None, :, 3] > self.slack
         return np.asarray(inside.all(axis=2).any(axis=0))
 

@@ -9,7 +9,7 @@ from benchmarks import shared, snapshot
 
 
 @pytest.fixture(scope="module")
-def measured() -> snapshot.Snapshot:
+def measured(each_evm: None) -> snapshot.Snapshot:
     return snapshot.take()
 
 

@@ -32,12 +32,14 @@ TARGET = "wasm32-unknown-unknown"
 #: Instructions on 128 bits reverse the bytes of words; without messages of panics the module is a third smaller, and
 #: names no files. An instance has at most 1 GiB of memory.
 FLAGS = "-C target-feature=+simd128 -Z unstable-options -C panic=immediate-abort -C link-arg=--max-memory=1073741824"
+#: Of this crate only: hosts put the functions of compiled contracts into its table of functions.
+OWN_FLAGS = ["-C", "link-arg=--export-table", "-C", "link-arg=--growable-table"]
 
 #: Kept, so that a second build takes seconds; the first one takes minutes.
 TARGET_FOLDER = user_cache_path("shackled", appauthor=False) / "evm-build"
 
 #: Bytes of the module at most, plain and compressed.
-MAX_SIZE, MAX_COMPRESSED = 1_500_000, 600_000
+MAX_SIZE, MAX_COMPRESSED = 430_000, 180_000
 
 MIT = """Permission is hereby granted, free of charge, to any person obtaining a copy of this software and associated
 documentation files (the "Software"), to deal in the Software without restriction, including without limitation the
@@ -56,8 +58,8 @@ OTHERWISE, ARISING FROM, OUT OF OR IN CONNECTION WITH THE SOFTWARE OR THE USE OR
 
 def digest_of_sources() -> str:
     """Return the SHA-256 of what the module is built from: the crate, versions of dependencies, flags."""
-    digest = hashlib.sha256(FLAGS.encode())
-    for path in [SOURCES / "Cargo.toml", SOURCES / "Cargo.lock", *sorted((SOURCES / "src").glob("*.rs"))]:
+    digest = hashlib.sha256(" ".join([FLAGS, *OWN_FLAGS]).encode())
+    for path in [SOURCES / "Cargo.toml", SOURCES / "Cargo.lock", *sorted((SOURCES / "src").rglob("*.*"))]:
         digest.update(f"\n{path.name} {hashlib.sha256(path.read_bytes()).hexdigest()}".encode())
     return digest.hexdigest()
 
@@ -74,7 +76,7 @@ def compiler() -> str | None:
     return ", ".join(each.stdout.strip() for each in said)
 
 
-def build() -> bytes:
+def build(sources: Path = SOURCES) -> bytes:
     """Return the module. The folder of the build is kept in the user's cache, so that a second build is fast."""
     home = Path(os.environ.get("CARGO_HOME", Path.home() / ".cargo"))
     environment = os.environ | {
@@ -89,7 +91,7 @@ def build() -> bytes:
     }
     command = [
         CARGO,
-        "build",
+        "rustc",
         "--release",
         "--locked",
         "--quiet",
@@ -97,8 +99,10 @@ def build() -> bytes:
         "build-std=std,panic_abort",
         "--target",
         TARGET,
+        "--",
+        *OWN_FLAGS,
     ]
-    subprocess.run(command, cwd=SOURCES, env=environment, check=True)
+    subprocess.run(command, cwd=sources, env=environment, check=True)
     return (TARGET_FOLDER / TARGET / "release" / "shackled_evm.wasm").read_bytes()
 
 

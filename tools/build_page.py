@@ -145,7 +145,7 @@ def dump(value: Any) -> bytes:
     return json.dumps(value, separators=(",", ":"), ensure_ascii=False).encode()
 
 
-# ---- pieces, as web/src/creator/packed.ts reads them ----
+# ---- pieces, as web/src/document/packed.ts reads them ----
 
 
 def pack(staged: Scene) -> bytes:

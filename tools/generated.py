@@ -16,7 +16,7 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 #: The makers, in this order: modules of the package need what the first one writes.
-MAKERS = ("layout", "presets", "lettering", "png_code", "library", "page_settings")
+MAKERS = ("layout", "scene_fields", "presets", "lettering", "png_code", "library", "page_settings")
 
 
 def stale(maker: str) -> dict[Path, str]:

@@ -7,6 +7,7 @@ are computed, so that one line of the table adds a register, and the contracts a
 
 from __future__ import annotations
 
+import json
 import re
 import textwrap
 import tomllib
@@ -256,6 +257,8 @@ def kinds_of_packages(table: dict[str, Any]) -> tuple[str, str]:
     title = "The kinds of the records of Scene.extensions. Written by tools/layout.py from contracts/layout.toml."
     kind_lines = [f"{name} = {kind}" for name, kind, *_ in part["kinds"]]
     number_lines = [f"{name} = {value}" for name, value, _ in part["numbers"]]
+    tone = [name for name, *_ in part["numbers"] if name.startswith("TONE_")]
+    pairs = [(json.dumps(name.removeprefix("TONE_").lower()), name) for name in tone]
     single = [
         (
             "The first kind whose size is given in words of 32 bytes, not in bytes.",
@@ -265,11 +268,15 @@ def kinds_of_packages(table: dict[str, Any]) -> tuple[str, str]:
     ]
     python = [f'"""{title}"""', "", *kind_lines, "", *number_lines, ""]
     python += [line for text, constant in single for line in (f"#: {text}", constant)]
+    flags = ", ".join(f"{field}: {name}" for field, name in pairs)
+    python += ["#: The flags of a tone, by its fields.", f"TONE_FLAGS = {{{flags}}}"]
     python += ["#: Bytes of its content; None for any number of words.", "SIZES: dict[int, int | None] = {"]
     python += [f"    {name}: {None if size == 'words' else size}," for name, _, _, size, _ in part["kinds"]]
     web = [f"// {title}", "", *(f"export const {line};" for line in kind_lines), ""]
     web += [*(f"export const {line};" for line in number_lines), ""]
     web += [line for text, constant in single for line in (f"/** {text} */", f"export const {constant};")]
+    web += ["/** The fields and the flags of a tone. */", "export const TONE_FLAGS = ["]
+    web += [*(f"    [{field}, {name}]," for field, name in pairs), "] as const;"]
     web += ["/** Bytes of the content, for kinds of one size. */", "export const SIZES = {"]
     web += [f"    [{name}]: {size}," for name, _, _, size, _ in part["kinds"] if size != "words"]
     return "\n".join([*python, "}", ""]), "\n".join([*web, "} as const;", ""])
@@ -318,8 +325,16 @@ def python(sections: Iterator[Section], used: set[str]) -> str:
 
 
 def used_names() -> set[str]:
-    """Return the names that chain/_engines.py uses of chain/_layout.py, as `layout.NAME`."""
-    return set(re.findall(r"\blayout\.([A-Z]\w+)", PACKAGE.with_name("_engines.py").read_text("utf-8")))
+    """Return the names that the package uses of chain/_layout.py, as `layout.NAME`."""
+    users = (PACKAGE.with_name("_engines.py"), PACKAGE.parents[1] / "parallel" / "_job.py")
+    return {name for path in users for name in re.findall(r"\blayout\.([A-Z]\w+)", path.read_text("utf-8"))}
+
+
+def bands() -> Section:
+    """Return the number of pixels of a band, which the contracts have where they use it."""
+    text = (FOLDER.parent / "pipeline" / "Pipeline.sol").read_text("utf-8")
+    (found,) = re.findall(r"^uint256 constant (BAND_PIXELS) = (\d+);", text, re.MULTILINE)
+    return Section("bands, of Pipeline.sol", "", (Constant(found[0], int(found[1])),))
 
 
 def wrapped(text: str, first: str, width: int, rest: str | None = None) -> list[str]:
@@ -342,7 +357,7 @@ def files() -> dict[Path, str]:
         FOLDER / "Records.sol": solidity(iter([kinds(table)]), version="^0.8.25"),
         KINDS: for_python,
         WEB_KINDS: for_web,
-        PACKAGE: python(iter([*common, *packed]), used_names()),
+        PACKAGE: python(iter([*common, *packed, bands()]), used_names()),
     }
     # each of the others is for fewer engines than the one before
     before = "Registers.sol"

@@ -1,6 +1,7 @@
-"""Make faulty versions of the contracts that draw, and find out which tests detect them.
+"""Make faulty versions of the contracts that draw, and of the definition, and find out which tests detect them.
 
     python -m tools.mutants                 the mutants of the present contracts, in at most three hours on two cores
+    python -m tools.mutants --picture       those of contracts/picture.py, which needs OpenGL
     python -m tools.mutants --count 20      so many, spread over the folders
     python -m tools.mutants --list          what would be changed, without compiling it
 
@@ -25,6 +26,7 @@ from collections import Counter
 from collections.abc import Callable, Iterator
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
+from functools import partial
 from hashlib import sha256
 from itertools import zip_longest
 from pathlib import Path
@@ -38,6 +40,8 @@ from tools import build_contracts as tool
 ROOT = tool.ROOT
 RESULTS = ROOT / "build" / "mutants.jsonl"
 FOLDERS = ("scene", "uniforms", "effects", "pipeline", "shadows")
+#: A mutant of the definition takes its place in the judge, too, which therefore is no witness: see OF_PICTURE.
+PICTURE = tool.CONTRACTS / "picture.py"
 #: Of each file, so many mutants are tried before those of other files are.
 PER_FILE = 4
 #: The gas of a call, with which an endless loop ends soon, and the seconds of a mutant's tests.
@@ -62,8 +66,17 @@ RULES = [
     "tests/test_transparent.py",
     "tests/contracts/test_random_scenes.py",
 ]
-#: Seeds of random scenes, of each kind, that the judge sees.
-SEEDS = range(1, 9)
+#: Those that hold when the definition draws in place of the contracts.
+RULES_OF_PICTURE = [
+    "tests/judge/test_judge.py::test_coverage_of_a_square",
+    "tests/judge/test_judge.py::test_light_of_a_sphere",
+    "tests/contracts/test_fill_rule.py::test_a_pixel_on_each_kind_of_edge",
+    "tests/contracts/test_fill_rule.py::test_slivers",
+    "tests/contracts/test_clipping.py::test_the_near_plane_cuts_where_it_is",
+    "tests/contracts/test_depth.py::test_of_two_coplanar_triangles_the_first_wins",
+]
+#: Seeds of random scenes, of each kind, that the judge sees; of those that OpenGL sees, and the most triangles of one.
+SEEDS, OPENGL_SEEDS, TRIANGLES = range(1, 9), range(1, 17), 300
 
 
 @dataclass(frozen=True)
@@ -153,6 +166,12 @@ def checks(text: str) -> Places:
         yield match.start(), match.end(), ""
 
 
+def factors(text: str) -> Places:
+    """A factor or a divisor dropped."""
+    for match in re.finditer(r" [*/@] [\w.]+(\([^()]*\))?(?=[ ,)\]\n])", text):
+        yield match.start(), match.end(), ""
+
+
 OPERATORS: dict[str, Callable[[str], Places]] = {
     "constant": constants,
     "comparison": comparisons,
@@ -169,10 +188,28 @@ def mutants_of(file: str) -> list[Mutant]:
     code = re.sub(
         r"//.*|^(?:pragma|import|uint256 constant|int256 constant).*", lambda m: " " * len(m[0]), text, flags=re.M
     )
-    code = re.sub(r"^import\b[^;]*;|\"[^\"\n]*\"", lambda m: re.sub(r"\S", " ", m[0]), code, flags=re.M)
-    rng = random.Random(sha256(text.encode()).digest())
+    code = blanked(r"^import\b[^;]*;|\"[^\"\n]*\"", code)
+    # the line that names functions of picture.py does not choose the places
+    return shuffled(file, code, OPERATORS, re.sub(r"^// .* of picture\.py.*\n\n?", "", text, flags=re.M))
+
+
+def mutants_of_picture() -> list[Mutant]:
+    """Return the mutants of the definition, but for comments and strings."""
+    text = PICTURE.read_text("utf-8")
+    code = blanked(r'"""(?s:.*?)"""|"[^"\n]*"|#.*', text)
+    return shuffled(PICTURE.name, code, OPERATORS | {"factor": factors}, text)
+
+
+def blanked(pattern: str, text: str) -> str:
+    """Return the text without what matches the pattern, which leaves its lines and length."""
+    return re.sub(pattern, lambda m: re.sub(r"\S", " ", m[0]), text, flags=re.M)
+
+
+def shuffled(file: str, code: str, operators: dict[str, Callable[[str], Places]], seed: str) -> list[Mutant]:
+    """Return the mutants of code, one of each operator in turn, in an order that the seed determines."""
+    rng = random.Random(sha256(seed.encode()).digest())
     found = []
-    for kind, operator in OPERATORS.items():
+    for kind, operator in operators.items():
         places = sorted(set(operator(code)))
         rng.shuffle(places)
         found.append([Mutant(file, kind, *place) for place in places])
@@ -227,8 +264,8 @@ def by_judge() -> str | None:
     return None
 
 
-def by_rules() -> str | None:
-    """Run the tests of exact rules."""
+def by_tests(tests: list[str]) -> str | None:
+    """Return the first file of these tests that fails."""
     import pytest
 
     failed: list[str] = []
@@ -238,7 +275,7 @@ def by_rules() -> str | None:
             if report.failed:
                 failed.append(report.nodeid.split("::")[0].removeprefix("tests/"))
 
-    code = pytest.main(["-x", "-q", "--tb=no", "-p", "no:cacheprovider", *RULES], plugins=[Listener()])
+    code = pytest.main(["-x", "-q", "--tb=no", "-p", "no:cacheprovider", *tests], plugins=[Listener()])
     return (failed or [f"exit code {code}"])[0] if code else None
 
 
@@ -250,15 +287,40 @@ def by_golden() -> str | None:
     return next((name for name in old if name not in new or new[name][0] != old[name][0]), None)
 
 
+def by_opengl() -> str | None:
+    """Compare random scenes with OpenGL."""
+    from conformance.compare import compare
+    from random_scenes import random_scene
+    from shackled.scene._in_range import in_range
+
+    scenes = ((seed, random_scene("plain", seed)) for seed in OPENGL_SEEDS)
+    small = ((seed, scene) for seed, scene in scenes if in_range(scene).triangles <= TRIANGLES)
+    return next((f"plain {seed}" for seed, scene in small if compare("", scene).faults), None)
+
+
 JUDGES: dict[str, Callable[[], str | None]] = {
     "judge": by_judge,
-    "rules": by_rules,
+    "rules": partial(by_tests, RULES),
     "golden": by_golden,
+}
+OF_PICTURE: dict[str, Callable[[], str | None]] = {
+    "OpenGL": by_opengl,
+    "rules": partial(by_tests, RULES_OF_PICTURE),
+    "contracts": partial(by_tests, ["tests/contracts/test_definition.py"]),
 }
 
 
 def run(file: str, judge: str) -> None:
     """Print what a judge finds when a mutant is in the place of its contract, as JSON."""
+    if Path(file).name == PICTURE.name:
+        import picture  # before pytest finds the one that is right
+        import pictures
+
+        if judge != "contracts":
+            # tests that are imported from now on draw with it
+            patch.object(pictures, "draw", lambda scene: picture.draw(pictures.call_data("render", scene))).start()
+        print(json.dumps(OF_PICTURE[judge]()))
+        return
     mutant = json.loads(Path(file).read_text("utf-8"))
     name, creation = mutant["contract"], bytes.fromhex(mutant["creation"])
     built = artifact(name)
@@ -277,9 +339,9 @@ def run(file: str, judge: str) -> None:
 
 
 def killer(file: Path, judge: str) -> str | None:
-    """Return what a judge finds of a mutant, in a process of its own."""
+    """Return what a judge finds of a mutant, in a process of its own that imports what is beside the file."""
     command = [sys.executable, "-m", "tools.mutants", "--run", str(file), judge]
-    folders = ("", "tests", "tests/contracts", "tests/support", "src", "contracts")
+    folders = (file.parent, "", "tests", "tests/contracts", "tests/support", "src", "contracts")
     paths = os.pathsep.join(str(ROOT / folder) for folder in folders)
     # one thread each: the arrays are small
     environment = os.environ | {"PYTHONPATH": paths, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
@@ -333,6 +395,33 @@ def tried(mutant: Mutant) -> dict[str, Any] | None:
     return None
 
 
+def tried_in_place(mutant: Mutant) -> dict[str, Any] | None:
+    """Let all judges find a mutant of the definition; None if it is no program."""
+    text = PICTURE.read_text("utf-8")
+    changed = mutant.apply(text)
+    try:
+        compile(changed, PICTURE.name, "exec")
+    except SyntaxError:
+        return None
+    key = sha256((changed + " ".join(OF_PICTURE)).encode()).hexdigest()[:16]
+    known = recorded().get(key)
+    if known is None:
+        old, new = mutant.describe(text)
+        function = ["", *re.findall(r"^(?:def|class|    def(?= \w+\(self)) (\w+)", text[: mutant.place], re.M)][-1]
+        known = {"key": key, "file": PICTURE.name, "kind": mutant.kind, "old": old, "new": new, "contract": function}
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder, PICTURE.name)
+            path.write_text(changed, "utf-8")
+            known["killed by"] = dict[str, str | None].fromkeys(OF_PICTURE)
+            for judge in OF_PICTURE:
+                if found := killer(path, judge):
+                    known["killed by"][judge] = found
+                    break
+        with RESULTS.open("a", encoding="utf-8") as file:
+            file.write(json.dumps(known) + "\n")
+    return known
+
+
 def recorded() -> dict[str, dict[str, Any]]:
     """Return the results of earlier runs, by key."""
     if not RESULTS.is_file():
@@ -355,10 +444,12 @@ def of_file(file: str, number: int) -> dict[str, Any] | None:
 
 def table(rows: list[dict[str, Any]]) -> str:
     """Return the results in Markdown, a line for each mutant."""
-    lines = ["| file | contract | change | " + " | ".join(JUDGES) + " |", "|---" * (3 + len(JUDGES)) + "|"]
-    for row in sorted(rows, key=lambda row: (FOLDERS.index(row["file"].split("/")[0]), row["file"], row["old"])):
+    judges, folders = [*rows[0]["killed by"]], [*FOLDERS, PICTURE.name]
+    head = ["file", "function" if rows[0]["file"] == PICTURE.name else "contract", "change", *judges]
+    lines = [f"| {' | '.join(head)} |", "|---" * len(head) + "|"]
+    for row in sorted(rows, key=lambda row: (folders.index(row["file"].split("/")[0]), row["file"], row["old"])):
         before, after = shortened(row["old"], row["new"])
-        marks = (row["killed by"][judge] or "" for judge in JUDGES)
+        marks = (row["killed by"][judge] or "" for judge in judges)
         cells = [row["file"], row["contract"], f"`{before}` → `{after}`".replace("|", "\\|"), *marks]
         lines.append("| " + " | ".join(cells) + " |")
     return "\n".join(lines)
@@ -375,21 +466,24 @@ def shortened(old: str, new: str, around: int = 12) -> tuple[str, str]:
 
 def summary(rows: list[dict[str, Any]]) -> str:
     """Return in Markdown how many mutants of each folder each judge detects, and how many none does."""
-    counts = {folder: Counter[str]() for folder in [*FOLDERS, "**all**"]}
+    counts = {folder: Counter[str]() for folder in [*FOLDERS, PICTURE.name, "**all**"]}
+    judges = [*rows[0]["killed by"]]
     for row in rows:
-        found = [judge for judge in JUDGES if row["killed by"][judge]] or ["none"]
+        found = [judge for judge in judges if row["killed by"][judge]] or ["none"]
         for folder in (row["file"].split("/")[0], "**all**"):
             counts[folder].update(["mutants", *found])
-    names = ["mutants", *JUDGES, "none"]
+    names = ["mutants", *judges, "none"]
     lines = [f"| folder | {' | '.join(names)} |", "|---" * (1 + len(names)) + "|"]
     for folder, found_by in counts.items():
-        lines.append(f"| {folder} | {' | '.join(str(found_by[name]) for name in names)} |")
+        if found_by:
+            lines.append(f"| {folder} | {' | '.join(str(found_by[name]) for name in names)} |")
     return "\n".join(lines)
 
 
 def main() -> int:
     """The command."""
     parser = argparse.ArgumentParser(prog="tools.mutants", description=(__doc__ or "").partition("\n")[0])
+    parser.add_argument("--picture", action="store_true", help="mutants of contracts/picture.py")
     parser.add_argument("--count", type=int, default=80, help="how many mutants (80)")
     parser.add_argument("--jobs", type=int, default=os.cpu_count(), help="processes")
     parser.add_argument("--list", action="store_true", help="show what would be changed")
@@ -405,10 +499,18 @@ def main() -> int:
                 print(f"{file}: {mutant.kind}: {' -> '.join(shortened(*mutant.describe(text), 30))}")
         return 0
     RESULTS.parent.mkdir(exist_ok=True)
-    tasks = [(file, number) for number in range(PER_FILE) for file in files()][: arguments.count]
+    tasks: list[Callable[[], dict[str, Any] | None]]
+    if arguments.picture:
+        unchanged = tried_in_place(Mutant(PICTURE.name, "", 0, 0, ""))
+        if unchanged is None or any(unchanged["killed by"].values()):
+            raise SystemExit(f"picture.py does not pass as it is: {unchanged}")
+        tasks = [partial(tried_in_place, mutant) for mutant in mutants_of_picture()[: arguments.count]]
+    else:
+        chosen = [(file, number) for number in range(PER_FILE) for file in files()][: arguments.count]
+        tasks = [partial(of_file, *each) for each in chosen]
     started, rows = time.perf_counter(), []
     with ThreadPoolExecutor(arguments.jobs) as threads:
-        for done, row in enumerate(threads.map(lambda task: of_file(*task), tasks), 1):
+        for done, row in enumerate(threads.map(lambda task: task(), tasks), 1):
             if row is not None:
                 rows.append(row)
                 found = ", ".join(f"{name}: {by}" for name, by in row["killed by"].items() if by) or "SURVIVED"

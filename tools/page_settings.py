@@ -1,4 +1,4 @@
-"""Make web/src/creator/settings.ts: what the page takes from the package, which are settings, looks, limits of gas,
+"""Make web/src/document/settings.ts: what the page takes from the package, which are settings, looks, limits of gas,
 chains, and bounds of what transactions cost.
 """
 
@@ -18,7 +18,7 @@ from shackled.scene._settings import SETTINGS
 from shackled.tokens._contract import USUAL_GAS
 from shackled.tokens._reveal import FIRST_GAS, REVEAL_GAS
 
-FILE = Path(__file__).resolve().parent.parent / "web" / "src" / "creator" / "settings.ts"
+FILE = Path(__file__).resolve().parent.parent / "web" / "src" / "document" / "settings.ts"
 HEAD = """// Written by tools/page_settings.py from the tables of the Python package.
 
 /** What can be set: src/shackled/scene/_settings.py. `low` and `high` are null where there is none. */

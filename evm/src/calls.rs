@@ -1,6 +1,7 @@
 //! Contracts in memory, and calls of them.
 
 use crate::{
+    compiled::{Compiled, GaveUp},
     fast,
     precompiles::Precompiles,
     profile::{Described, Place, Profile},
@@ -12,7 +13,7 @@ use revm::{
         BlockEnv, ContextSetters, Evm, TxEnv,
         result::{EVMError, ExecutionResult, HaltReason},
     },
-    context_interface::{ContextTr, FrameStack, JournalTr},
+    context_interface::{ContextTr, FrameStack, JournalTr, context::ContextError},
     database::{CacheDB, EmptyDB, WrapDatabaseRef},
     database_interface::DatabaseCommit,
     handler::{
@@ -26,7 +27,7 @@ use revm::{
     primitives::{Address, B256, Bytes, HashMap, KECCAK_EMPTY, TxKind, U256, address, hardfork::SpecId},
     state::{AccountInfo, EvmState},
 };
-use std::convert::Infallible;
+use std::{cell::RefCell, convert::Infallible};
 
 /// The sender of all calls, that of Python's embedded chains.
 const SENDER: Address = address!("5ac61ed000000000000000000000000000000001");
@@ -56,6 +57,10 @@ pub struct Contracts {
     accounts: CacheDB<EmptyDB>,
     block: BlockEnv,
     described: HashMap<Address, Described>,
+    /// Contracts that are compiled, by the hash of their code.
+    compiled: HashMap<B256, Compiled>,
+    /// The gas that contracts used in the interpreter since they were the busiest.
+    interpreted: RefCell<HashMap<Address, u64>>,
 }
 
 impl Contracts {
@@ -84,8 +89,25 @@ impl Contracts {
         self.described.entry(address).or_insert((number, Vec::new())).1 = Place::read(places);
     }
 
+    /// Uses compiled code for the contract at an address from now on. run: its place in the table of functions.
+    pub fn link(&mut self, address: Address, run: usize) {
+        let Some(account) = self.accounts.cache.accounts.get(&address) else { return };
+        let hash = account.info.code_hash;
+        if let Some(code) = self.accounts.cache.contracts.get(&hash) {
+            self.compiled.insert(hash, Compiled::new(run, code.original_byte_slice()));
+        }
+    }
+
+    /// Returns the contract that used most gas in the interpreter since it was returned here, and that gas, if it is at
+    /// least so much.
+    pub fn busiest(&mut self, least: u64) -> Option<(Address, u64)> {
+        let interpreted = self.interpreted.get_mut();
+        let (address, _) = interpreted.iter().filter(|(_, gas)| **gas >= least).max_by_key(|(_, gas)| **gas)?;
+        interpreted.remove_entry(&address.clone())
+    }
+
     pub fn run(&self, kind: TxKind, data: Bytes, gas: u64) -> Answer {
-        self.transact(kind, data, U256::ZERO, gas, None).0
+        self.execute(kind, data, U256::ZERO, gas).0
     }
 
     /// Runs a transaction whose changes later calls find. The output of a creation is the address of the contract.
@@ -94,7 +116,7 @@ impl Contracts {
             // half of all: a transfer to the sender cannot exceed the largest balance
             self.accounts.insert_account_info(SENDER, AccountInfo::from_balance(U256::MAX >> 1));
         }
-        let (mut answer, _, changes) = self.transact(kind, data, value, gas, None);
+        let (mut answer, changes) = self.execute(kind, data, value, gas);
         self.accounts.commit(changes);
         if let Some(address) = answer.created {
             answer.output = Bytes::copy_from_slice(address.as_slice());
@@ -105,8 +127,20 @@ impl Contracts {
     /// Returns the answer of a call, and its table as `Profile::table` says.
     pub fn profile(&self, address: Address, data: Bytes, gas: u64) -> (Answer, Vec<u32>) {
         let profile = Some(Profile::new(&self.described));
-        let (answer, profile, _) = self.transact(TxKind::Call(address), data, U256::ZERO, gas, profile);
-        (answer, profile.map(|profile| profile.table()).unwrap_or_default())
+        match self.transact(TxKind::Call(address), data, U256::ZERO, gas, &HashMap::default(), profile) {
+            Ok((answer, _, profile)) => (answer, profile.map(|profile| profile.table()).unwrap_or_default()),
+            Err(GaveUp) => unreachable!(),
+        }
+    }
+
+    /// Runs a transaction with compiled code, and again in the interpreter where that gives up.
+    fn execute(&self, kind: TxKind, data: Bytes, value: U256, gas: u64) -> (Answer, EvmState) {
+        for compiled in [&self.compiled, &HashMap::default()] {
+            if let Ok((answer, changes, _)) = self.transact(kind, data.clone(), value, gas, compiled, None) {
+                return (answer, changes);
+            }
+        }
+        unreachable!()
     }
 
     fn transact<'a>(
@@ -115,8 +149,9 @@ impl Contracts {
         data: Bytes,
         value: U256,
         gas: u64,
+        compiled: &'a HashMap<B256, Compiled>,
         profile: Option<Profile<'a>>,
-    ) -> (Answer, Option<Profile<'a>>, EvmState) {
+    ) -> Result<(Answer, EvmState, Option<Profile<'a>>), GaveUp> {
         let context = Context::mainnet()
             .with_db(WrapDatabaseRef(&self.accounts))
             .with_block(self.block.clone())
@@ -137,8 +172,11 @@ impl Contracts {
             .initial_total_gas();
         transaction.gas_limit = gas.saturating_add(initial);
         evm.ctx.set_tx(transaction);
-        let mut runner = Runner { evm, profile };
+        let mut runner = Runner { evm, compiled, gave_up: false, interpreted: &self.interpreted, profile };
         let result = MainnetHandler::<_, EVMError<Infallible>, EthFrame<EthInterpreter>>::default().run(&mut runner);
+        if runner.gave_up {
+            return Err(GaveUp);
+        }
         let answer = match result {
             Ok(result) => {
                 let gas = result.tx_gas_used().saturating_sub(initial);
@@ -159,7 +197,7 @@ impl Contracts {
             Err(error) => failure(format!("{error:?}"), 0),
         };
         let changes = runner.evm.ctx.journal_mut().finalize();
-        (answer, runner.profile, changes)
+        Ok((answer, changes, runner.profile))
     }
 }
 
@@ -170,9 +208,12 @@ fn failure(reason: String, gas: u64) -> Answer {
 type State<'a> = MainnetContext<WrapDatabaseRef<&'a CacheDB<EmptyDB>>>;
 type Base<'a> = Evm<State<'a>, (), EthInstructions<EthInterpreter, State<'a>>, Precompiles, EthFrame<EthInterpreter>>;
 
-/// The EVM of revm, but that frames run in `fast`, or under a profile.
+/// The EVM of revm, but that frames run in compiled code, in `fast`, or under a profile.
 struct Runner<'a> {
     evm: Base<'a>,
+    compiled: &'a HashMap<B256, Compiled>,
+    gave_up: bool,
+    interpreted: &'a RefCell<HashMap<Address, u64>>,
     profile: Option<Profile<'a>>,
 }
 
@@ -205,14 +246,33 @@ impl<'a> EvmTr for Runner<'a> {
         let context = &mut self.evm.ctx;
         let (instructions, costs) = (self.evm.instruction.instruction_table(), self.evm.instruction.gas_table());
         let interpreter = &mut frame.interpreter;
-        let end = match &mut self.profile {
-            Some(profile) => profile.run(depth, interpreter, instructions, costs, context),
-            None => loop {
-                fast::run(interpreter);
+        let compiled = interpreter.bytecode.hash().and_then(|hash| self.compiled.get(&hash));
+        let end = match (&mut self.profile, compiled) {
+            (Some(profile), _) => profile.run(depth, interpreter, instructions, costs, context),
+            (None, Some(compiled)) => loop {
+                if let Err(GaveUp) = compiled.run(interpreter) {
+                    self.gave_up = true;
+                    return Err(ContextError::Custom(String::new()));
+                }
                 if let Err(end) = interpreter.step(instructions, costs, context) {
                     break end;
                 }
             },
+            (None, None) => {
+                let mut gas = 0;
+                let end = loop {
+                    let before = interpreter.gas.remaining();
+                    fast::run(interpreter);
+                    gas += before - interpreter.gas.remaining();
+                    if let Err(end) = interpreter.step(instructions, costs, context) {
+                        break end;
+                    }
+                };
+                if let Some(address) = interpreter.input.bytecode_address {
+                    *self.interpreted.borrow_mut().entry(address).or_default() += gas;
+                }
+                end
+            }
         };
         if interpreter.bytecode.action().is_none() {
             interpreter.halt(end);

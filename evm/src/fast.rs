@@ -16,7 +16,7 @@ use revm::{
 };
 
 /// The number of words that an EVM stack holds.
-const STACK_LIMIT: usize = 1024;
+pub const STACK_LIMIT: usize = 1024;
 
 const BASE: u64 = 2;
 const VERY_LOW: u64 = 3;
@@ -156,13 +156,7 @@ pub fn run(interpreter: &mut Interpreter<EthInterpreter>) {
                     let quotient = divide(magnitude(a), magnitude(b));
                     if sign(&a) == sign(&b) { quotient } else { quotient.wrapping_neg() }
                 }),
-                opcode::SIGNEXTEND => binary!(LOW, |a, b| match small(&a) {
-                    Some(byte) if byte < 31 => {
-                        let raised = shift_left(&b, 248 - 8 * byte);
-                        shift_right(&raised, 248 - 8 * byte, sign(&raised))
-                    }
-                    _ => b,
-                }),
+                opcode::SIGNEXTEND => binary!(LOW, |a, b| extend_sign(a, b)),
                 opcode::LT => binary!(VERY_LOW, |a, b| truth(less(&a, &b))),
                 opcode::GT => binary!(VERY_LOW, |a, b| truth(less(&b, &a))),
                 opcode::SLT => binary!(VERY_LOW, |a, b| truth(signed_less(&a, &b))),
@@ -316,6 +310,18 @@ fn sign(value: &U256) -> u64 {
     (value.as_limbs()[3] as i64 >> 63) as u64
 }
 
+/// Extends the sign of a number whose highest byte is that of an index, from the lowest.
+#[inline(always)]
+pub fn extend_sign(index: U256, value: U256) -> U256 {
+    match small(&index) {
+        Some(byte) if byte < 31 => {
+            let raised = shift_left(&value, 248 - 8 * byte);
+            shift_right(&raised, 248 - 8 * byte, sign(&raised))
+        }
+        _ => value,
+    }
+}
+
 #[inline(always)]
 fn magnitude(value: U256) -> U256 {
     if sign(&value) == 0 { value } else { value.wrapping_neg() }
@@ -433,7 +439,7 @@ unsafe fn immediate(code: *const u8, begin: usize, end: usize) -> U256 {
 /// # Safety
 /// Both must have `count` bytes.
 #[inline(always)]
-unsafe fn copy(from: *const u8, to: *mut u8, count: usize) {
+pub unsafe fn copy(from: *const u8, to: *mut u8, count: usize) {
     unsafe {
         match count {
             // what a call of the copying routine would cost more than

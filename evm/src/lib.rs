@@ -6,6 +6,7 @@
 //! bytes.
 
 mod calls;
+mod compiled;
 mod fast;
 mod precompiles;
 mod profile;
@@ -19,6 +20,7 @@ struct Instance {
     contracts: Contracts,
     answer: Answer,
     profile: Vec<u32>,
+    module: Vec<u8>,
 }
 
 thread_local! {
@@ -102,6 +104,50 @@ pub unsafe extern "C" fn deploy(data: *const u8, size: usize, gas: u64) -> u32 {
 pub unsafe extern "C" fn send(address: *const u8, value: *const u8, data: *const u8, size: usize, gas: u64) -> u32 {
     let (address, value, data) = unsafe { (read_address(address), read(value, 32), read(data, size)) };
     send_to(TxKind::Call(address), data, U256::from_be_slice(&value), gas)
+}
+
+/// Translates a code to a WebAssembly module; returns its size in bytes, or 0 if it would be too large. `budget`: of a
+/// region, in instructions. `is_wide`: not 0 if the host has `i64.mul_wide_u`.
+///
+/// # Safety
+/// The arguments lie in memory from `allocate`.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn compile(code: *const u8, size: usize, budget: usize, is_wide: u32) -> usize {
+    let module = shackled_compile::translate(&unsafe { read(code, size) }, budget, is_wide != 0).unwrap_or_default();
+    INSTANCE.with_borrow_mut(|instance| {
+        instance.module = module;
+        instance.module.len()
+    })
+}
+
+/// Returns the module that `compile` made last.
+#[unsafe(no_mangle)]
+pub extern "C" fn module() -> *const u8 {
+    INSTANCE.with_borrow(|instance| instance.module.as_ptr())
+}
+
+/// Lets the contract at an address run compiled code from now on. `run` is the place of the module's function of this
+/// name in the table of functions, where the host put it. The module imports memory and functions of this instance.
+///
+/// # Safety
+/// The arguments lie in memory from `allocate`; the module is that of this code.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn link(address: *const u8, run: usize) {
+    let address = unsafe { read_address(address) };
+    INSTANCE.with_borrow_mut(|instance| instance.contracts.link(address, run));
+}
+
+/// Writes the address of the contract that used most gas in the interpreter since it was last written here; returns that
+/// gas, or 0 if no contract used at least so much.
+///
+/// # Safety
+/// The argument is room for an address.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn busiest(address: *mut u8, least: u64) -> u64 {
+    let found = INSTANCE.with_borrow_mut(|instance| instance.contracts.busiest(least));
+    let Some((busiest, gas)) = found else { return 0 };
+    unsafe { std::slice::from_raw_parts_mut(address, 20) }.copy_from_slice(busiest.as_slice());
+    gas
 }
 
 /// Describes the code of a contract for `profile`, by a `profile::Place` for each position. Contracts are numbered from 0

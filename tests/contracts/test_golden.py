@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import pytest
+
 import golden
 from pictures import chain
 from shackled.artifacts import artifact
@@ -11,6 +13,7 @@ from shackled.gas._trace import places
 from shackled.scene._codec import render_call
 
 
+@pytest.mark.usefixtures("each_evm")
 def test_pixels_and_gas() -> None:
     new = golden.take()
     changed = golden.differences(golden.recorded(), new)

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from evms import ADDRESS, Ours, pyevm_call, pyrevm_call
+from evms import ADDRESS, REGIONS, Ours, pyevm_call, pyrevm_call
 from shackled.evm._instance import Answer, Status
 
 GAS = 100_000
@@ -61,9 +61,10 @@ def op(code: int, *operands: int) -> bytes:
 END = op(MSTORE, 0x100) + op(MSTORE, 0x120) + bytes([MSIZE, PUSH0, RETURN])
 
 
-@pytest.fixture(scope="module")
-def ours() -> Ours:
-    return Ours()
+@pytest.fixture(scope="module", params=REGIONS)
+def ours(request: pytest.FixtureRequest) -> Ours:
+    """In the interpreter, compiled in regions of one instruction, and as usual."""
+    return Ours(request.param)
 
 
 def agree(ours: Ours, code: bytes, data: bytes = b"", gas: int = GAS) -> Answer:
@@ -89,13 +90,30 @@ def agree_with_pyrevm(ours: Ours, code: bytes, data: bytes = b"", gas: int = GAS
 
 @pytest.mark.parametrize(("operands", "code"), [(n, code) for n, codes in PURE.items() for code in codes])
 def test_results_at_the_edges(ours: Ours, operands: int, code: int) -> None:
-    """Each instruction, for numbers around all powers of two that matter, in all pairs."""
-    edges = EDGES if operands < 3 else EDGES[::4]
-    cases = list(itertools.product(edges, repeat=operands))
+    """Each instruction, for numbers around all powers of two that matter, in all pairs: constants."""
+    # code of that length is compiled slowly: compiled contracts have the next test
+    thin = (1 if operands < 3 else 4) * (1 if ours.region is None else 3)
+    cases = list(itertools.product(EDGES[::thin], repeat=operands))
     program = b"".join(op(code, *case) + op(MSTORE, 32 * n) for n, case in enumerate(cases))
     answer = agree(ours, program + op(RETURN, 0, 32 * len(cases)), bytes(range(256)), 100_000_000)
     assert answer.status == Status.SUCCESS
     assert len(answer.output) == 32 * len(cases)
+
+
+@pytest.mark.parametrize(("operands", "code"), [(n, code) for n, codes in PURE.items() for code in codes])
+def test_results_of_data_at_the_edges(ours: Ours, operands: int, code: int) -> None:
+    """The same of operands that are known at run time only, the data of the call, in a loop."""
+    cases = list(itertools.product(EDGES if operands < 3 else EDGES[::4], repeat=operands))
+    # on the stack is the place of a case in the data, which is that of its result in memory too
+    load = [bytes([DUP1 + n]) + op(ADD, 32 * (operands - 1 - n)) + bytes([CALLDATALOAD]) for n in range(operands)]
+    step = bytes([DUP1 + 1, MSTORE]) + op(ADD, 32 * operands) + bytes([CALLDATASIZE, DUP1 + 1, LT])
+    program = (
+        bytes([PUSH0, JUMPDEST]) + b"".join(load) + bytes([code]) + step + op(JUMPI, 1) + bytes([MSIZE, PUSH0, RETURN])
+    )
+    data = b"".join(each.to_bytes(32, "big") for case in cases for each in case)
+    answer = agree(ours, program, data, 100_000_000)
+    assert answer.status == Status.SUCCESS
+    assert len(answer.output) == 32 * (operands * (len(cases) - 1) + 1)
 
 
 PROGRAMS = {
@@ -209,7 +227,7 @@ def test_a_static_call_writes_nothing(ours: Ours) -> None:
 def test_other_precompiled_contracts_fail_as_a_whole(ours: Ours) -> None:
     """They are left out; what they would return is not made up."""
     for number in (*range(1, 4), *range(5, 11)):
-        ours.instance.put(ADDRESS, op(STATICCALL, GAS, number, 0, 0, 0, 0) + END)
+        ours.put(ADDRESS, op(STATICCALL, GAS, number, 0, 0, 0, 0) + END)
         answer = ours.instance.call(ADDRESS, b"", GAS)
         assert answer.status == Status.FAILURE
         assert b"is not part of this EVM" in answer.output

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import pytest
 
-from evms import Codes, Ours, pyevm_call, pyrevm_call
+from evms import REGIONS, Codes, Ours, pyevm_call, pyrevm_call
 from nodes import anvil, needs_anvil
 from pictures import call_data, words
 from random_scenes import broken_call, random_case
@@ -53,11 +53,12 @@ class World:
         assert answer == pyevm_call(self.codes, self.renderer, data, gas)
 
 
-@pytest.fixture(scope="module")
-def world() -> World:
+@pytest.fixture(scope="module", params=REGIONS)
+def world(request: pytest.FixtureRequest) -> World:
+    """In the interpreter, compiled in regions of one instruction, and as usual."""
     chain = RevmChain()
     renderer = chain.address("Renderer")
-    return World(chain, chain.codes(), renderer, Ours())
+    return World(chain, chain.codes(), renderer, Ours(request.param))
 
 
 def test_built_in_scenes(world: World) -> None:

@@ -2,14 +2,14 @@
 
 import { readFileSync, writeFileSync } from "node:fs";
 import type { PageAssets } from "../../web/src/creator/assets.js";
-import { prepare, sceneOf, type Document, type StoredMesh } from "../../web/src/creator/document.js";
-import { MeshStore } from "../../web/src/creator/library.js";
+import { prepare, sceneOf, type Document, type StoredMesh } from "../../web/src/document/document.js";
+import { MeshStore } from "../../web/src/creator/mesh_store.js";
 import { castCommand, neededGas } from "../../web/src/creator/programs/cast.js";
 import { pythonProgram } from "../../web/src/creator/programs/python.js";
 import { solidityProgram } from "../../web/src/creator/programs/solidity.js";
 import { stemOf } from "../../web/src/creator/programs/subject.js";
-import { sceneFile } from "../../web/src/creator/save.js";
-import { toHex } from "../../web/src/evm/bytes.js";
+import { sceneFile } from "../../web/src/document/save.js";
+import { toHex } from "../../web/src/bytes.js";
 import type { Contracts } from "../../web/src/evm/contracts.js";
 import { hashPixels } from "../../web/src/picture.js";
 import { render } from "../../web/src/render.js";

@@ -9,7 +9,6 @@ import random
 import zipfile
 from pathlib import Path
 
-import numpy as np
 from examples.showcase import SCENES
 from PIL import Image as PillowImage
 
@@ -205,27 +204,10 @@ def test_what_is_told_of_files(visit: Visit) -> None:
 # ---- links ----
 
 
-#: A link of the Creator that had a server; and the pixels of its picture, as means of a 4 x 4 grid.
-OLD_LINK = (
-    "jVPLCsMgEPyXnKVoaoP0X0oJYlOhajAN7cV_746ERtMeghdd9jE74-xIDXGeKHMPmUfsX-4oc2DlosWzYFZrpTKKpeMEVKU63bZjy6sWSmlN4rBS"
-    "BlHIYL038Zr91ZxFrg3zcw0Bcbqwf7ZhvyaTHKeBGZydxruJmTjgQgWRFK0rI9Wyi9_G8DIUkQnyDnW2NzCHAMwbbh2ho92Cz3PMm1wxY6Y4nCjD"
-    "Phz9kqV06J3rvzg2DpZ8NbDkKX0A"
-)
-OLD_COLORS = "d7dee6ccc5cfccc5d0d6dde5ba97a9b18993b395a7b88f9db39bacb86d74b76c70b28e9aa9b6c5a8abb9a8abbaa9b6c5"
-
-
-def test_a_link_of_the_page_that_had_a_server(visit: Visit) -> None:
-    """web/tests/creator-core.test.ts has the numbers of others."""
-    pixels = np.frombuffer(visit(f"?p=1{OLD_LINK}").pixels(), np.uint8).reshape(4, 10, 4, 10, 3)
-    expected = np.frombuffer(bytes.fromhex(OLD_COLORS), np.uint8).reshape(4, 4, 3)
-    assert np.abs(pixels.mean(axis=(1, 3)) - expected).max() <= 3
-
-
 def test_a_link_that_is_none_is_told_and_something_is_shown(visit: Visit) -> None:
-    for address in ("#1AAAA", "?p=1AAAA"):
-        page = visit(address)
-        assert page.said("error")
-        assert page.doc()["objects"]
+    page = visit("#1AAAA")
+    assert page.said("error")
+    assert page.doc()["objects"]
     before = page.pixels()
     for address in ("#1" + "x" * 50, "#9abc", link({"objects": 3})):
         page.run("void (app.toasts.value = [], location.hash = argument)", address)

@@ -17,7 +17,8 @@ from shackled import Background, Camera, Fog, InputError, Light, Material, Mesh,
 from shackled.scene import encode
 from shackled.scene._camera import Projection
 from shackled.scene._codec import ONE, Rectangle, extensions
-from shackled.scene._in_range import MAX_COORDINATE, in_range
+from shackled.scene._constants import MAX_COORDINATE
+from shackled.scene._in_range import in_range
 from shackled.scene._mesh import vertex_normals
 from shackled.scene._packed import pack
 

@@ -5,29 +5,64 @@ Names of failures are left out: they differ between versions of revm.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import Any
 
 import pytest
+import wasmtime
 
 from shackled.chain._embedded import SENDER, PyEvmChain
 from shackled.ethereum._encoding import intrinsic_gas, to_hex
+from shackled.evm import _compiled
 from shackled.evm._instance import Answer, Instance, Status
 
 #: Where code under test is put.
 ADDRESS = bytes(18) + b"\xc0\xde"
 
+#: What runs a program: the interpreter, compiled regions of one instruction, and those that are shipped.
+REGIONS = (None, 1, _compiled.REGION)
+
 Codes = dict[bytes, bytes]
+
+#: What other EVMs returned, by their name and the arguments: each program is compared several times.
+_known: dict[tuple[Any, ...], Answer] = {}
+
+
+def _once(
+    ask: Callable[..., Answer],
+    codes: Codes,
+    address: bytes,
+    data: bytes,
+    gas: int,
+    block: tuple[int, int, bytes] | None,
+) -> Answer:
+    key = (ask, tuple(codes.items()), address, data, gas, block)
+    if key not in _known:
+        _known[key] = ask(codes, address, data, gas, block)
+    return _known[key]
 
 
 class Ours:
-    """The EVM of the package, one instance for all calls."""
+    """The EVM of the package, one instance for all calls. region: of compiled code; None for the interpreter."""
 
-    def __init__(self) -> None:
-        self.instance = Instance()
+    def __init__(self, region: int | None = None) -> None:
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setenv("SHACKLED_EVM", "interpreter")
+            self.instance = Instance()
+        self.region = region
+        self._compiled: set[bytes] = set()
+
+    def put(self, address: bytes, code: bytes) -> None:
+        """Set the code of a contract, and compile it."""
+        self.instance.put(address, code)
+        if self.region is not None and code and code not in self._compiled:
+            translated = self.instance.translate(code, self.region)
+            assert self.instance._link(address, wasmtime.Module(self.instance._engine, translated))
+            self._compiled.add(code)
 
     def call(self, codes: Codes, address: bytes, data: bytes, gas: int) -> Answer:
         for each, code in codes.items():
-            self.instance.put(each, code)
+            self.put(each, code)
         answer = self.instance.call(address, data, gas)
         return answer._replace(output=b"") if answer.status == Status.FAILURE else answer
 
@@ -36,6 +71,10 @@ def pyrevm_call(
     codes: Codes, address: bytes, data: bytes, gas: int, block: tuple[int, int, bytes] | None = None
 ) -> Answer:
     """Call in a new EVM of pyrevm; skip the test where it is not installed. block: the arguments of `set_block`."""
+    return _once(_pyrevm_call, codes, address, data, gas, block)
+
+
+def _pyrevm_call(codes: Codes, address: bytes, data: bytes, gas: int, block: tuple[int, int, bytes] | None) -> Answer:
     pyrevm: Any = pytest.importorskip("pyrevm")
     evm = pyrevm.EVM(spec_id="Cancun")
     if block is not None:
@@ -59,6 +98,10 @@ def pyrevm_call(
 
 def pyevm_call(codes: Codes, address: bytes, data: bytes, gas: int) -> Answer:
     """Call in py-evm; skip the test where it is not installed."""
+    return _once(_pyevm_call, codes, address, data, gas, None)
+
+
+def _pyevm_call(codes: Codes, address: bytes, data: bytes, gas: int, _: None) -> Answer:
     exceptions: Any = pytest.importorskip("eth.exceptions")
     chain = PyEvmChain()
     for each, code in codes.items():

@@ -3,7 +3,7 @@
 import { InputError, about } from "./errors.js";
 import { add, boundsOf, largest, rotation, times, type Quaternion, type Vector } from "./scene/arithmetic.js";
 import { WORD, type FunctionName } from "./scene/encode.js";
-import { MAX_COORDINATE } from "./scene/fit.js";
+import { MAX_COORDINATE } from "./scene/constants.js";
 import { unpackedPositions } from "./scene/mesh.js";
 import { Reader, type Field } from "./scene/reader.js";
 import { SIZES, SPOT } from "./scene/records.js";

@@ -5,12 +5,11 @@ import { mkdirSync, readFileSync, readdirSync, realpathSync, statSync, writeFile
 import { basename, dirname, join, relative, resolve, sep } from "node:path";
 import { parseArgs } from "node:util";
 import { encode as encodePng } from "fast-png";
-import { fitted, withCamera } from "./creator/camera.js";
-import { sceneOf, type Document, type MeshRef, type Meshes, type StoredMesh } from "./creator/document.js";
-import { applyLook, LOOKS } from "./creator/looks.js";
-import { withScene } from "./creator/work/encoders.js";
+import { fitted, withCamera } from "./document/camera.js";
+import { sceneOf, type Document, type MeshRef, type Meshes, type StoredMesh } from "./document/document.js";
+import { applyLook, LOOKS } from "./document/looks.js";
 import { InputError } from "./errors.js";
-import { toHex } from "./evm/bytes.js";
+import { toHex } from "./bytes.js";
 import { decodeImagesBy } from "./files/images.js";
 import { decodeInNode } from "./files/node.js";
 import { readFiles, type Given, type Opened } from "./files/read.js";
@@ -18,6 +17,7 @@ import { render } from "./render.js";
 import { boundsOf } from "./scene/arithmetic.js";
 import { checkedScene, worldPositions } from "./scene/checked.js";
 import * as check from "./scene/checks.js";
+import { withCall } from "./scene/call_file.js";
 import { encode } from "./scene/encode.js";
 
 const PRESETS = LOOKS.map(({ name }) => name);
@@ -169,7 +169,7 @@ async function draw({ document, meshes }: Opened, values: Values, path: string |
     const { pixels, gas } = await render(call);
     const png = encodePng({ width, height, channels: 3, data: pixels.filter((_, at) => at % 4 < 3) });
     mkdirSync(dirname(path), { recursive: true });
-    writeFileSync(path, await withScene(new Uint8Array(png), call));
+    writeFileSync(path, await withCall(new Uint8Array(png), call));
     return { ...facts, output: path, gas };
 }
 

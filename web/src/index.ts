@@ -1,6 +1,7 @@
 export { InputError } from "./errors.js";
 export type { AssetSource, AssetSources } from "./evm/assets.js";
-export { CallError, type ContractName, type Contracts } from "./evm/contracts.js";
+export { CallError, type Contracts } from "./evm/contracts.js";
+export type { ContractName } from "./evm/names.js";
 export { Evm, type Answer, type Status } from "./evm/evm.js";
 export type { StageGas, StageMap, Stages } from "./evm/stages.js";
 export type { Picture } from "./picture.js";

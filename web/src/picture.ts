@@ -1,7 +1,7 @@
 // What the Renderer returns for a call: bitmaps, their pixels, and the hash of those.
 
 import { InputError } from "./errors.js";
-import { bytesAt, toHex, wordAt } from "./evm/bytes.js";
+import { bytesAt, toHex, wordAt } from "./bytes.js";
 import type { ContractEvm } from "./evm/contracts.js";
 import { FUNCTIONS, type FunctionName } from "./scene/encode.js";
 

@@ -13,6 +13,9 @@ export interface RenderOptions {
     assets?: AssetSources | undefined;
 }
 
+/** Gas that a contract uses before it is compiled: that of several pictures. */
+const BUSY = 100_000_000;
+
 const DEFAULTS: AssetSources = {};
 const evms = once(async (sources) => {
     const { module, contracts } = await loadAssets(sources);
@@ -43,7 +46,9 @@ function once<T>(load: (sources: AssetSources) => Promise<T>): (sources: AssetSo
  */
 export async function render(scene: Scene | Uint8Array, options: RenderOptions = {}): Promise<Picture> {
     const call = scene instanceof Uint8Array ? scene : encode(scene);
-    return drawCall(await evms(options.assets), call, options.gas);
+    const evm = await evms(options.assets);
+    await evm.compile(BUSY);
+    return drawCall(evm, call, options.gas);
 }
 
 /**

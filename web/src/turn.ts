@@ -6,7 +6,8 @@ import { add, cross, fromAxisAngle, multiply, rotation, subtract, unit, type Vec
 import { MAX_SIDE } from "./scene/checked.js";
 import { number, whole } from "./scene/checks.js";
 import { WORD, isTiled, q32, setWord } from "./scene/encode.js";
-import { MAX_COORDINATE, direction } from "./scene/fit.js";
+import { MAX_COORDINATE } from "./scene/constants.js";
+import { direction } from "./scene/fit.js";
 import type { Field } from "./scene/reader.js";
 
 /** How far the viewer has gone around a scene. */

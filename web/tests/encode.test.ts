@@ -150,7 +150,7 @@ test("tiles lie on the canvas, and belong to functions of tiles", () => {
 test("wrong scene files are refused, with the place", () => {
     const cases: [string, RegExp][] = [
         ["{", /the scene is not valid JSON: /],
-        ["[]", /a scene must be a table with keys of objects/],
+        ["[]", /a scene must be a table with keys of size, objects/],
         ['{"size": [1, 2, 3]}', /size must be a number of pixels, or width and height/],
         ['{"antialias": "yes"}', /antialias must be true or false, not "yes"/],
         ['{"fog": {"color": "red", "near": 1}}', /fog\.far must be a finite number, at least 0, not undefined/],

@@ -6,11 +6,11 @@ import { test } from "node:test";
 import { gzipSync, strToU8, zipSync } from "fflate";
 import { MeshoptEncoder } from "meshoptimizer/encoder";
 import { encode } from "../src/index.js";
-import { sceneOf } from "../src/creator/document.js";
-import { decodeImagesBy, type Image, type Picture } from "../src/files/images.js";
+import { sceneOf } from "../src/document/document.js";
+import { decodeImagesBy, type Picture } from "../src/files/images.js";
 import { PLAIN, partsOf } from "../src/files/parts.js";
 import { readFiles, type Given, type Opened } from "../src/files/read.js";
-import type { Source } from "../src/files/source.js";
+import type { Image, Source } from "../src/files/source.js";
 
 const CUBE = ["v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1\n"]
     .concat(["f 4 3 2 1\n", "f 5 6 7 8\n", "f 1 2 6 5\n", "f 2 3 7 6\n", "f 3 4 8 7\n", "f 4 1 5 8\n"])

@@ -3,8 +3,7 @@ import { test } from "node:test";
 import { deflateSync, gzipSync } from "node:zlib";
 
 import { InputError, encode } from "../src/index.js";
-import { readFile } from "../src/view/source.js";
-import { Speed } from "../src/view/speed.js";
+import { readFile } from "../src/scene/call_file.js";
 
 const document = JSON.stringify({
     size: 8,
@@ -87,23 +86,4 @@ test("damaged files are read or refused", async () => {
         await readFile(broken).catch((error: unknown) => assert.ok(error instanceof InputError, String(error)));
         await readFile(whole.slice(0, place)).catch((error: unknown) => assert.ok(error instanceof InputError));
     }
-});
-
-test("the size of moving pictures", () => {
-    const speed = new Speed();
-    const [own, shown] = [
-        [100, 80],
-        [400, 320],
-    ] as const;
-    assert.deepEqual(speed.movingSize(own, shown), shown);
-    speed.add(8000, 20);
-    assert.deepEqual(speed.movingSize(own, shown), own);
-    speed.add(8000, 500);
-    assert.deepEqual(speed.movingSize(own, shown), [100, 80], "one slow picture says little");
-    const slow = new Speed();
-    slow.add(8000, 1000);
-    assert.deepEqual(slow.movingSize(own, shown), [20, 16]);
-    slow.add(500, 30);
-    slow.add(2000, 40);
-    assert.ok(Math.abs(slow.predict(1250) - 35) < 1e-9);
 });

@@ -2,15 +2,17 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
 
-import type { Document, MeshRef, StoredMesh } from "../src/creator/document.js";
+import type { Document, MeshRef, StoredMesh } from "../src/document/document.js";
 import { compressZeros } from "../src/creator/work/compact.js";
 import { fitted } from "../src/creator/work/fit.js";
-import { Machine } from "../src/creator/work/machine.js";
+import { Host } from "../src/creator/work/host.js";
+import { handlersOf } from "../src/creator/work/machine.js";
 import { idAt } from "../src/creator/work/pick.js";
-import type { WorkerLike } from "../src/creator/work/pool.js";
-import type { Message } from "../src/creator/work/protocol.js";
 import { Cancelled, Work } from "../src/creator/work/work.js";
 import { CallError, InputError } from "../src/index.js";
+import { Pool, type WorkerLike } from "../src/workers/pool.js";
+import type { Message } from "../src/workers/protocol.js";
+import { answering, type Handlers } from "../src/workers/serve.js";
 import { TETRAHEDRON } from "./tetrahedron.js";
 
 const FILES: Record<string, string> = {
@@ -60,14 +62,23 @@ const DOC: Document = {
     ...{ width: 64, height: 32 },
 };
 
+function answeringAt(host: Host): ReturnType<typeof answering> {
+    return answering(handlersOf(host), host.keep);
+}
+
 /** Workers in this thread, each of which answers after the turn in which it was asked. */
 class Workers {
+    readonly #answering: () => ReturnType<typeof answering>;
     readonly messages: Message[][] = [];
     ended = 0;
     #answers = 0;
 
+    constructor(answers = () => answeringAt(new Host())) {
+        this.#answering = answers;
+    }
+
     readonly start = (): WorkerLike => {
-        const machine = new Machine();
+        const answer = this.#answering();
         const messages: Message[] = [];
         this.messages.push(messages);
         let alive = true;
@@ -81,10 +92,11 @@ class Workers {
             postMessage: (message) => {
                 messages.push(message);
                 setTimeout(async () => {
-                    const reply = await machine.reply(structuredClone(message));
-                    if (!reply || !alive) return;
-                    worker.onmessage?.({ data: structuredClone(reply) });
-                    this.#answers++;
+                    await answer(structuredClone(message), (reply) => {
+                        if (!alive) return;
+                        worker.onmessage?.({ data: structuredClone(reply) });
+                        this.#answers++;
+                    });
                 }, 5);
             },
         };
@@ -98,7 +110,8 @@ class Workers {
     given(): string[] {
         return this.messages
             .flat()
-            .flatMap((message) => ("give" in message ? (message.give.meshes ?? []).map(([key]) => key) : []));
+            .flatMap((message) => ("give" in message ? message.give.map(([key]) => key) : []))
+            .filter((key) => key.startsWith("mesh"));
     }
 }
 
@@ -235,4 +248,53 @@ test("the largest canvas that fits, then the most triangles", async () => {
 test("runs of zeros", () => {
     const bytes = Uint8Array.of(...new Array<number>(130).fill(0), 7, 255, 255, 9);
     assert.deepEqual([...compressZeros(bytes)], [255, 128, 255, 254, 7, 0, 129, 9]);
+});
+
+interface Questions {
+    sum: [{ of: string[] }, number];
+    sleep: [object, null];
+}
+
+function asking(): { pool: Pool<Questions, "one">; workers: Workers; asked: string[] } {
+    const asked: string[] = [];
+    const handlers: Handlers<Questions> = {
+        sum: async ({ of }, { need, onProgress }) => {
+            onProgress("asking");
+            const [found, again] = await Promise.all([need(of), need(of)]);
+            assert.deepEqual(found, again);
+            return (found as number[]).reduce((a, b) => a + b, 0);
+        },
+        sleep: () => new Promise(() => undefined),
+    };
+    const workers = new Workers(() => answering(handlers, () => undefined));
+    const supplies = async (_: unknown, __: unknown, lacks: readonly string[]): Promise<Map<string, unknown>> => {
+        asked.push(...lacks);
+        if (lacks.includes("x")) throw new InputError("there is no x");
+        return new Map(lacks.map((key) => [key, Number(key)]));
+    };
+    const pool = new Pool<Questions, "one">({ start: async () => workers.start(), supplies }, { one: 1 });
+    return { pool, workers, asked };
+}
+
+test("a worker asks for what it lacks, and tells what it does", async () => {
+    const { pool, asked, workers } = asking();
+    const told: string[] = [];
+    assert.equal(await pool.ask("sum", { of: ["1", "2"] }, "one", { onProgress: (what) => void told.push(what) }), 3);
+    assert.deepEqual([asked, told], [["1", "2"], ["asking"]]);
+    await assert.rejects(pool.ask("sum", { of: ["x"] }, "one"), { name: "InputError", message: "there is no x" });
+    assert.equal(await pool.ask("sum", { of: ["4"] }, "one"), 4);
+    assert.equal(workers.ended, 0);
+});
+
+test("what takes too long ends, and so does what is ended before its worker has started", async () => {
+    const { pool, workers } = asking();
+    await assert.rejects(pool.ask("sleep", {}, "one", { limit: 30 }), /took longer than 0.03 s, and were stopped/);
+    assert.equal(workers.ended, 1);
+    const stop = new AbortController();
+    const asleep = pool.ask("sleep", {}, "one", { signal: stop.signal });
+    stop.abort();
+    await assert.rejects(asleep, Cancelled);
+    assert.equal(await pool.ask("sum", { of: ["5"] }, "one"), 5);
+    pool.stop();
+    assert.equal(workers.ended, workers.messages.length);
 });

@@ -8,6 +8,7 @@ import "../words/Records.sol";
 import {Scene} from "../scene/Scene.sol";
 import {SceneErrors} from "../scene/SceneErrors.sol";
 
+// Computes `records_of` of picture.py for effects, and checks them.
 // The contents of effect records: see `Extensions.sol`, and `words/Records.sol` for what they belong to. Colours are three bytes: red,
 // green, blue.
 //

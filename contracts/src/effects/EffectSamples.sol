@@ -10,6 +10,7 @@ import {ShadowRows} from "../shadows/ShadowRows.sol";
 import {SurfaceLight} from "./SurfaceLight.sol";
 import "../words/EffectRegisters.sol";
 
+// Computes `fill` of picture.py with light and shadow at each fragment.
 // The fragments of scenes with effects, opaque or translucent, with four samples per pixel. Each is shaded individually, at the centroid of
 // the samples that the triangle covers. A fragment of which some samples are in shadow and others are not is drawn twice: with the light
 // that casts shadows switched off, and on.

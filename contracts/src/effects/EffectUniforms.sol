@@ -12,6 +12,8 @@ import {Transform} from "../uniforms/Transform.sol";
 import {View} from "../uniforms/View.sol";
 import "../words/EffectRegisters.sol";
 
+// Computes the values of `read` and `object_of` of picture.py that effects need, as registers.
+
 /// @notice Ambient light, light from above, and light from below: lanes of bytes.
 struct Ambient {
     uint256 light;

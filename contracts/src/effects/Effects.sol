@@ -9,6 +9,8 @@ import {SceneErrors} from "../scene/SceneErrors.sol";
 import {Shadows} from "../shadows/Shadows.sol";
 import "../words/EffectRegisters.sol";
 
+// Computes the effects of `read` of picture.py, and `Shadow`.
+
 /// @title Effects: computes the data that the EffectsEngine needs.
 /// @notice Called by the Renderer for scenes with effects. Checks their records, and computes uniforms and shadows. Stateless.
 contract Effects is SceneErrors {

@@ -3,6 +3,7 @@ pragma solidity 0.8.37;
 
 import "../words/EffectRegisters.sol";
 
+// Computes `light` of picture.py, and its inverse in `colored`.
 // sRGB (IEC 61966-2-1): linear = level / 12.92 up to level 0.04045, ((level + 0.055) / 1.055)^2.4 above; tables with linear interpolation.
 
 /// @dev 16 bits each: 255 times the linear value of the levels 0, 4, 8 ... 256, Q7.

@@ -3,6 +3,7 @@ pragma solidity 0.8.37;
 
 import "../words/EffectRegisters.sol";
 
+// Computes the fading of `surface` of picture.py.
 // A ground is an object on which others stand: it casts no shadow and fades into the background. At distance d from its position it is
 // opaque up to the inner radius r and vanishes from the outer radius R on:
 //

@@ -7,6 +7,7 @@ import {FragmentLight, SURFACE} from "../pipeline/shading/FragmentLight.sol";
 import {OPACITY_AT, Texture} from "./Texture.sol";
 import "../words/EffectRegisters.sol";
 
+// Computes `radiance` and `colored` of picture.py for scenes with effects.
 // The fragment shader of scenes with effects. With albedo, light and highlights as in FragmentLight:
 //
 //   radiance = albedo * (light + hemisphere) + highlights + emission + rim * (1 - max(N.V, 0))^power

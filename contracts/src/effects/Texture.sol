@@ -7,6 +7,7 @@ import {Triangles} from "../pipeline/geometry/Triangles.sol";
 import {VertexShader} from "../pipeline/geometry/VertexShader.sol";
 import "../words/EffectRegisters.sol";
 
+// Computes `texture_at` of picture.py.
 // Samples a texture at a fragment: see EffectRecords for its format.
 //
 // Texture coordinates are interpolated perspective-correctly, in two lanes of 128 bits: u below, v above. Texels are addressed as in

@@ -4,6 +4,7 @@ pragma solidity 0.8.37;
 import {Rectangle} from "../scene/Scene.sol";
 import "../words/Registers.sol";
 
+// Computes the background, the blending and the last step of `draw` of picture.py.
 // The background, blending, and the final operations on all pixels.
 
 /// @dev The background may write this many bytes beyond its end: less than one more row, or 96 bytes.

@@ -10,6 +10,7 @@ import {Clipper} from "./geometry/Clipper.sol";
 import {Compositor} from "./Compositor.sol";
 import "../words/Registers.sol";
 
+// Computes `draw` of picture.py, band by band.
 // Draws a picture from beginning to end. Memory contains, in this order: registers, vertices and listed triangles of all objects, the
 // pixels, and the depths of a band of rows.
 

@@ -12,6 +12,7 @@ import {BUCKETS, Frame, LightSpace, PLACE_SIZE} from "./LightSpace.sol";
 import {CHAINS} from "./Outlines.sol";
 import "../words/Registers.sol";
 
+// Computes the planes of `Shadow` of picture.py.
 // Reads all faces of a scene, and finds those that cast shadows.
 
 /// @dev The data in memory, by addresses.

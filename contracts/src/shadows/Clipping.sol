@@ -7,6 +7,7 @@ import {LANE, LANE_MASK, LANE_TOP} from "./Faces.sol";
 import {IS_IN_FRONT, POLYGON_1, POLYGON_2, Receiver, SIDES} from "./Receivers.sol";
 import "../words/Registers.sol";
 
+// Computes `Camera.project` of picture.py for the corners of shadows.
 // Projects shadows to the canvas, clipped to it. The corner of a shadow is known relative to the sides of the receiver: these numbers are
 // its barycentric coordinates, so that its homogeneous position on the canvas is the sum of the receiver's corners with these weights.
 //

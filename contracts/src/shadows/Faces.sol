@@ -4,6 +4,7 @@ pragma solidity 0.8.37;
 import {BUCKETS, CUBE, EVERYWHERE, Frame, HIGH_AT, LightSpace, PLACE_BOX} from "./LightSpace.sol";
 import "../words/Registers.sol";
 
+// Finds the faces that `Shadow.on` of picture.py must test.
 // Faces in light space, and the search for those that may shade a face.
 //
 // A face with the vertices a, b, c has six words: their addresses, and its ranges (FACE_ in Words.sol); its normal n, the cross product of

@@ -7,6 +7,7 @@ import {Mesh} from "../scene/Mesh.sol";
 import {Light, Object, POINT, Fixed, Vector, normalize, Matrix} from "../scene/Scene.sol";
 import "../words/Registers.sol";
 
+// Computes `toward` of picture.py in a space of the light.
 // Light space. The z axis points toward a directional light, or from a point light to the shadow casters. The origin is the centre of the
 // casters, or the point light. The farthest point of a caster has coordinates of 20 bits, including the sign.
 //

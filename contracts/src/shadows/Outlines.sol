@@ -6,6 +6,7 @@ import {FACE_SIDE} from "./Faces.sol";
 import {Receiver} from "./Receivers.sol";
 import "../words/Registers.sol";
 
+// Computes `Shadow.on` of picture.py as edges on the screen.
 // Computes the edges of all shadows on a face: SHADOW_EDGE_ in Words.sol. A sample is in shadow if more of them begin than end to the left
 // of it. Where two shadows meet, one ends and the other begins: both edges cancel, so that for most objects little more than the outline is
 // left. Lists are sorted by the first row of pixels.

@@ -5,6 +5,7 @@ import {magnitude, excess} from "../math/Bits.sol";
 import {BEHIND, CASTER_SIZE, FACE_SIDE, Faces, LANE_ONES, LANE_TOPS, PLANES_SIZE, SIDE_SIZE} from "./Faces.sol";
 import "../words/Registers.sol";
 
+// Computes which planes of `Shadow` of picture.py reach a face.
 // Finds the faces that shade a face, the receiver. A caster shades it if it is in front of it, and inside its sides as seen from the light.
 
 /// @dev The bits of the coordinates of a face, including the sign, for which all functions fit lanes. The functions of a wider face are

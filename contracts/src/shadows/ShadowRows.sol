@@ -3,6 +3,7 @@ pragma solidity 0.8.37;
 
 import "../words/EffectRegisters.sol";
 
+// Computes `Shadow.on` of picture.py for the samples of a row.
 // The samples of a row that are in shadow: a word of four lanes for each pixel; the highest bit of each lane is set if more shadows begin
 // than end to the left of the sample: see Outlines. Each edge changes the words of the pixels it crosses; the prefix sums of the words
 // from the left are the result.

@@ -17,6 +17,7 @@ import {SHADOW_DARK, SHADOW_ENTRY_AT, SHADOW_ENTRY_SIZE} from "./ShadowRows.sol"
 import {COVERED, MISSED, Receiver, Receivers} from "./Receivers.sol";
 import "../words/EffectRegisters.sol";
 
+// Computes `Shadow` of picture.py.
 // Computes which parts of which faces a light does not reach.
 //
 // Every shadow caster is a set of four half-spaces, exact in integers: its three sides as seen from the light, and the half-space behind

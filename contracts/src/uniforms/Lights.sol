@@ -7,6 +7,8 @@ import {Light, Scene, POINT, Fixed, Vector, normalize} from "../scene/Scene.sol"
 import {View} from "./View.sol";
 import "../words/Registers.sol";
 
+// Prepares `toward` and `through_cone` of picture.py: the lights in camera space.
+
 /// @dev The minimum difference of the cosines between which a spot light fades, 2^-10, Q24: 1/1000 in glTF.
 int256 constant MIN_CONE = int256(ONE_24 >> 10);
 

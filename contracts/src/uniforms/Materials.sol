@@ -6,6 +6,8 @@ import {Specular, UNBOUNDED_REACH} from "./Specular.sol";
 import {View} from "./View.sol";
 import "../words/Registers.sol";
 
+// Computes the factors of `radiance` of picture.py: lights times coefficients of the material.
+
 /// @notice Computes how a lit surface reflects the lights, and the precision of shading it requires.
 library Materials {
     /// @return mode The bits that the material adds to OBJECT_MODE.

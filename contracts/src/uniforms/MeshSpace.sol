@@ -6,6 +6,7 @@ import {Scene, Object, Light, POINT, Vector, normalize} from "../scene/Scene.sol
 import {View} from "./View.sol";
 import "../words/Registers.sol";
 
+// Prepares `toward` and `Camera.toward` of picture.py for flat faces, in the space of the mesh.
 // Flat faces are lit in mesh space, where their corners are small integers.
 
 /// @dev The scale that converts a unit vector to Q24: see storeMeshVector.

@@ -4,6 +4,7 @@ pragma solidity 0.8.37;
 import {WIREFRAME} from "../scene/Scene.sol";
 import "../words/Registers.sol";
 
+// Computes the order of objects of `draw` of picture.py.
 // Assigns objects to engines, and determines the order: the opaque objects in the order of the scene, then the others. Consecutive objects
 // with the same engine are a run: one call. Everything is read from the uniforms in the calldata: see Uniforms.
 

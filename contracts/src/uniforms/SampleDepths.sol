@@ -4,6 +4,7 @@ pragma solidity 0.8.37;
 import {Mesh} from "../scene/Mesh.sol";
 import "../words/Registers.sol";
 
+// Computes the range of `Camera.nearness` of picture.py in a scene.
 // A sample has 36 bits for its depth, which are fitted to the depths of the scene: these are shifted so that the nearest vertex has the
 // highest bit or the one below; depths of an orthographic camera, which are differences, are relative to the farthest vertex. All vertices
 // of the scene are included, so that tiles match the whole picture.

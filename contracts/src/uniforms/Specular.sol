@@ -5,6 +5,8 @@ import {sqrt} from "../math/Roots.sol";
 import {Material} from "../scene/Scene.sol";
 import "../words/Registers.sol";
 
+// Tabulates the highlight of `radiance` of picture.py.
+
 /// @dev A reach, in squares of sub-pixels, above any triangle's.
 uint256 constant UNBOUNDED_REACH = 1 << 60;
 /// @dev 0.19, Q20: by so much the square of a cosine within a triangle may be above that of its nodes, for turns that SmoothLight allows;

@@ -6,6 +6,7 @@ import {Scene} from "../scene/Scene.sol";
 import {Indices} from "../pipeline/geometry/Indices.sol";
 import "../words/Registers.sol";
 
+// Leaves out faces of which `fill` of picture.py covers no pixel of a tile.
 // If only a part of the canvas is drawn, most faces lie beyond one of its borders. These faces, and the vertices that no other face uses,
 // are omitted from the calldata of the engine before anything else is computed for them.
 //

@@ -5,6 +5,8 @@ import {Object, Rectangle, Fixed, Vector, Matrix} from "../scene/Scene.sol";
 import {View} from "./View.sol";
 import "../words/Registers.sol";
 
+// Combines `object_of`, `Camera.seen` and `Camera.project` of picture.py, all but the division, into one map.
+
 /// @notice Sets the transformation of an object's vertices to the screen.
 library Transform {
     /// @notice Combines rotation, scale, position, camera and viewport into one affine map from mesh space to clip coordinates.

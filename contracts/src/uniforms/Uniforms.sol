@@ -15,6 +15,7 @@ import {Transform} from "./Transform.sol";
 import {View, lookAt} from "./View.sol";
 import "../words/Registers.sol";
 
+// Computes the values of `read` of picture.py as registers.
 // Computes the constants of a frame or an object. The Renderer fills the registers at their addresses in the engine, and passes them on
 // unchanged. The calldata of an engine consists of
 //

@@ -6,6 +6,8 @@ import {Camera, ORTHOGRAPHIC, Fixed, Vector, normalize} from "../scene/Scene.sol
 import {SceneErrors} from "../scene/SceneErrors.sol";
 import "../words/Registers.sol";
 
+// Computes `Camera` of picture.py.
+
 /// @notice The camera and its projection. Camera space has x to the right, y down, z forward, like the rows of a picture; the distance of a
 /// point is its z.
 /// @param focal Sub-pixels per unit at distance 1 (perspective) or per unit (orthographic), Q32.

@@ -23,13 +23,13 @@ WRONG_PATH = (PermissionError, FileNotFoundError, IsADirectoryError, NotADirecto
 WRONG_PATH_NUMBERS = (errno.ELOOP, errno.ENAMETOOLONG, errno.EROFS)
 
 
-def write_output(path: Path, data: bytes) -> None:
+def write_output(path: Path, data: bytes, is_verified: bool = False) -> None:
     """Write a file that the user has named, as `write_whole` does.
 
     InputError where the path is wrong, OutputError where the disk is full or fails.
     """
     with _of_user(path):
-        write_whole(path, data)
+        write_whole(path, data, is_verified=is_verified)
 
 
 def make_output_folder(path: Path) -> None:
@@ -65,10 +65,11 @@ def check_output_file(path: Path, what: str, in_new_folder: bool = False) -> Pat
     return path
 
 
-def write_whole(path: Path, data: bytes, mode: int = 0o666) -> None:
+def write_whole(path: Path, data: bytes, mode: int = 0o666, is_verified: bool = False) -> None:
     """Write a file atomically, replacing any other. If it raises OSError, no file has changed.
 
     A symbolic link is followed. Pipes and devices are written to directly. mode: less what the umask takes away.
+    is_verified: whether readers notice a file that is empty after a power failure; the disk is not waited for.
     """
     is_there = path.exists()
     if is_there and not path.is_file():
@@ -82,7 +83,8 @@ def write_whole(path: Path, data: bytes, mode: int = 0o666) -> None:
         try:
             file.write(data)
             file.flush()
-            os.fsync(file.fileno())  # otherwise it may be empty after a power failure
+            if not is_verified:
+                os.fsync(file.fileno())  # otherwise it may be empty after a power failure
             os.chmod(file.name, mode & ~_umask())
             file.close()
             os.replace(file.name, target)

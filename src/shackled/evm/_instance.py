@@ -4,14 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from enum import IntEnum
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from ..base.checks import integer
 from ..errors import ChainError, InputError
+from . import _compiled
 from ._module import address_space, start
+
+if TYPE_CHECKING:
+    import wasmtime
 
 #: The largest memory of an instance in bytes, which tools/build_evm.py writes into the module.
 MEMORY = 1 << 30
@@ -19,6 +23,9 @@ MEMORY = 1 << 30
 #: Calls get at most this much gas, a day's work: from 2^45 on it would pay for more memory than the 32-bit
 #: numbers of the module can address.
 MOST_GAS = (1 << 45) - 1
+
+#: As long as calls take less, nothing is done to make later ones faster.
+MUCH_GAS = 1_000_000
 
 #: Bytes of an address.
 ADDRESS = 20
@@ -55,11 +62,14 @@ class Instance:
 
     def __init__(self, is_stoppable: bool = False) -> None:
         """Start without contracts. is_stoppable: whether `stop` works, which makes calls slower."""
-        self._engine, self._store, instance = start(is_stoppable)
+        self._mode = _compiled.mode()
+        self._kind, self._engine, self._store, instance = start(is_stoppable)
         self._is_stopped = False
         self._exports: Any = instance.exports(self._store)
         self._memory: Any = self._exports["memory"]
         self._codes: dict[bytes, bytes] = {}
+        #: Of the calls since the busiest contract was sought, and after how much it is sought again.
+        self._gas, self._patience = 0, MUCH_GAS
 
     def stop(self) -> None:
         """End the call that runs in another thread, if any, and all later ones, by ChainError."""
@@ -71,6 +81,8 @@ class Instance:
         if self._codes.get(address) is not code:
             self._pass("put", _checked(address), code)
             self._codes[address] = code
+            if self._mode == "compiled" and code:
+                self.compile(address)
 
     def hold(self, codes: Mapping[bytes, bytes]) -> None:
         """Set the code of these contracts, by address, and remove that of all others."""
@@ -98,7 +110,11 @@ class Instance:
 
     def call(self, address: bytes, data: bytes, gas: int) -> Answer:
         """Call a contract with at most `gas` for the execution."""
-        return self._answer(self._pass("call", _checked(address), data, gas=gas))
+        if self._gas >= self._patience and self._mode != "interpreter":
+            self._note_busiest()
+        answer = self._answer(self._pass("call", _checked(address), data, gas=gas))
+        self._gas += answer.gas
+        return answer
 
     def create(self, creation: bytes, gas: int) -> Answer:
         """Run creation code, which is followed by the arguments of the constructor; the output is the runtime code."""
@@ -121,6 +137,49 @@ class Instance:
         answer = self._answer(self._pass("profile", _checked(address), data, gas=gas))
         table = self._read("table", 4 * self._run("table_size"))
         return answer, np.frombuffer(table, "<u4")
+
+    def translate(self, code: bytes, region: int) -> bytes:
+        """Return a code as a module of WebAssembly, in regions of so many instructions; b"" if too large."""
+        place = self._run("allocate", len(code))
+        self._memory.write(self._store, code, place)
+        size = self._run("compile", place, len(code), region, 1)
+        self._run("release", place, len(code))
+        return self._read("module", size)
+
+    def compile(self, address: bytes) -> bool:
+        """Let the contract at an address run as machine code; return whether that is possible."""
+        return self._link(address, _compiled.module_of(self._codes[address], self._engine, self._kind, _translated))
+
+    def _note_busiest(self) -> None:
+        """Let the contract that used most gas in the interpreter run as machine code, if there is some."""
+        self._gas, self._patience = 0, 2 * self._patience
+        place = self._run("allocate", ADDRESS)
+        gas = self._run("busiest", place, MUCH_GAS)
+        address = bytes(self._memory.read(self._store, place, place + ADDRESS))
+        self._run("release", place, ADDRESS)
+        if gas and address in self._codes:
+            self._patience = MUCH_GAS
+            self._link(
+                address, _compiled.busy_module_of(self._codes[address], gas, self._engine, self._kind, _translated)
+            )
+
+    def _link(self, address: bytes, module: wasmtime.Module | None) -> bool:
+        """Let the contract at an address run in a module; return whether it does."""
+        if module is None:
+            return False
+        import wasmtime
+
+        try:
+            instance = wasmtime.Instance(self._store, module, [self._exports[each.name] for each in module.imports])
+        except (wasmtime.WasmtimeError, MemoryError):
+            return False
+        run = instance.exports(self._store)["run"]
+        place = self._exports["__indirect_function_table"].grow(self._store, 1, run)
+        room = self._run("allocate", ADDRESS)
+        self._memory.write(self._store, address, room)
+        self._run("link", room, place)
+        self._run("release", room, ADDRESS)
+        return True
 
     def _pass(self, function: str, *values: bytes, gas: int | None = None) -> Any:
         """Call an exported function with values in memory, and the size of the last."""
@@ -154,6 +213,11 @@ class Instance:
             if (limit := address_space()) is not None:
                 why += f", or than this process has left of {limit >> 20:,} MB of address space (`ulimit -v`)"
             raise ChainError(why) from error
+
+
+def _translated(code: bytes) -> bytes:
+    """Translate a code in an instance of its own: that of a call may be in use."""
+    return Instance().translate(code, _compiled.REGION)
 
 
 def _checked(address: bytes) -> bytes:

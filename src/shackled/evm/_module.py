@@ -12,7 +12,7 @@ from contextlib import suppress
 from functools import cache
 from importlib.resources import files
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 from weakref import WeakSet
 
 from platformdirs import user_cache_path
@@ -41,7 +41,19 @@ def _leave_open() -> None:
             each._consume()
 
 
-def start(is_stoppable: bool = False) -> tuple[wasmtime.Engine, wasmtime.Store, wasmtime.Instance]:
+class Kind(NamedTuple):
+    """What machine code depends on, besides the machine: see `start`."""
+
+    is_small: bool
+    is_stoppable: bool
+
+    @property
+    def suffix(self) -> str:
+        """Return what tells files of this kind from others."""
+        return "-small" * self.is_small + "-stoppable" * self.is_stoppable
+
+
+def start(is_stoppable: bool = False) -> tuple[Kind, wasmtime.Engine, wasmtime.Store, wasmtime.Instance]:
     """Return a new instance of the module, with its engine and store. ChainError where wasmtime cannot start it.
 
     is_stoppable: whether an increment of the engine's epoch ends the call that runs in the instance, and all later
@@ -55,7 +67,7 @@ def start(is_stoppable: bool = False) -> tuple[wasmtime.Engine, wasmtime.Store, 
     for is_small, needed in ((False, FULL), (True, LEAST)):
         if limit is not None and limit < needed:
             continue
-        engine, module = compiled(is_small, is_stoppable)
+        engine, module = compiled(Kind(is_small, is_stoppable))
         import wasmtime
 
         store = wasmtime.Store(engine)
@@ -68,7 +80,7 @@ def start(is_stoppable: bool = False) -> tuple[wasmtime.Engine, wasmtime.Store, 
             failure = error
         else:
             _open.add(store)
-            return engine, store, instance
+            return Kind(is_small, is_stoppable), engine, store, instance
     raise _cannot_start(failure) from failure
 
 
@@ -98,37 +110,51 @@ def module_bytes() -> bytes:
     return files(__package__).joinpath("evm.wasm").read_bytes()
 
 
-def compiled(is_small: bool = False, is_stoppable: bool = False) -> tuple[wasmtime.Engine, wasmtime.Module]:
-    """Return the module as machine code. is_small, is_stoppable: see `start`; what can be stopped has its own engine.
+def compiled(kind: Kind) -> tuple[wasmtime.Engine, wasmtime.Module]:
+    """Return the module as machine code. What can be stopped has its own engine.
 
     The first call on a machine compiles it, within a second; later ones load it within milliseconds. ChainError where
     there is no build of wasmtime, or too little memory.
     """
     with _lock:
-        engine, module = _compiled(is_small, is_stoppable)
+        engine, module = _compiled(kind)
         _open.update((engine, module))
-        if is_stoppable:
+        if kind.is_stoppable:
             import wasmtime
 
-            engine = wasmtime.Engine(_config(is_small, is_stoppable))
+            engine = wasmtime.Engine(config(kind))
             module = wasmtime.Module.deserialize(engine, module.serialize())
             _open.update((engine, module))
         return engine, module
 
 
-def _config(is_small: bool, is_stoppable: bool) -> wasmtime.Config:
+def config(kind: Kind) -> wasmtime.Config:
+    """Return the settings of an engine."""
     import wasmtime
 
-    config = wasmtime.Config()
-    config.epoch_interruption = is_stoppable
-    if is_small:
-        config.memory_reservation, config.memory_guard_size = 64 << 20, 64 << 10
-        config.memory_reservation_for_growth, config.memory_init_cow = 64 << 20, False
-    return config
+    made = wasmtime.Config()
+    made.epoch_interruption = kind.is_stoppable
+    # products of 64 bits, for compiled contracts
+    made.wasm_wide_arithmetic = True
+    if kind.is_small:
+        made.memory_reservation, made.memory_guard_size = 64 << 20, 64 << 10
+        made.memory_reservation_for_growth, made.memory_init_cow = 64 << 20, False
+    return made
+
+
+def folder() -> Path:
+    """Return the folder of machine code."""
+    return user_cache_path("shackled", appauthor=False)
 
 
 @cache
-def _compiled(is_small: bool, is_stoppable: bool) -> tuple[wasmtime.Engine, wasmtime.Module]:
+def version() -> str:
+    """Return what tells this module from those of other versions."""
+    return hashlib.sha256(module_bytes()).hexdigest()[:16]
+
+
+@cache
+def _compiled(kind: Kind) -> tuple[wasmtime.Engine, wasmtime.Module]:
     try:
         import wasmtime
     except (ImportError, OSError, RuntimeError) as error:
@@ -137,34 +163,36 @@ def _compiled(is_small: bool, is_stoppable: bool) -> tuple[wasmtime.Engine, wasm
             f"there is no wasmtime for this machine ({platform.system()}, {platform.machine()}): choose the chain "
             "pyevm, of pip install 'shackled[pyevm]'"
         ) from error
-    engine = wasmtime.Engine(_config(is_small, is_stoppable))
-    source = module_bytes()
-    kind = "-small" * is_small + "-stoppable" * is_stoppable
-    name = f"evm-{hashlib.sha256(source).hexdigest()[:16]}{kind}.bin"
-    path = user_cache_path("shackled", appauthor=False) / name
+    engine = wasmtime.Engine(config(kind))
+    path = folder() / f"evm-{version()}{kind.suffix}.bin"
     module = _load(engine, path)
     if module is None:
         try:
-            module = wasmtime.Module(engine, source)
+            module = wasmtime.Module(engine, module_bytes())
         except (wasmtime.WasmtimeError, MemoryError) as error:
             raise _cannot_start(error) from error
-        _save(path, bytes(module.serialize()))
+        save(path, bytes(module.serialize()))
     return engine, module
 
 
 def _load(engine: wasmtime.Engine, path: Path) -> wasmtime.Module | None:
-    """Return the module of a cache file; None if others could have written it, it is damaged, or wasmtime differs."""
+    """Return the module of a cache file; None if it cannot be read, or wasmtime differs."""
     import wasmtime
 
-    try:
-        with open(path, "rb", opener=_open_plainly) as file:
-            if not _is_trusted(os.fstat(file.fileno())):
-                return None
+    code = read(path)
+    with suppress(wasmtime.WasmtimeError):
+        return None if code is None else wasmtime.Module.deserialize(engine, code)
+    return None
+
+
+def read(path: Path) -> bytes | None:
+    """Return the machine code of a cache file; None if others could have written it, or it is damaged."""
+    with suppress(OSError), open(path, "rb", opener=_open_plainly) as file:
+        if _is_trusted(os.fstat(file.fileno())):
             digest, code = file.read(32), file.read()
-        # wasmtime takes code as it is: what was cut off or changed would crash
-        return wasmtime.Module.deserialize(engine, code) if hashlib.sha256(code).digest() == digest else None
-    except (OSError, wasmtime.WasmtimeError):
-        return None
+            # wasmtime takes code as it is: what was cut off or changed would crash
+            return code if hashlib.sha256(code).digest() == digest else None
+    return None
 
 
 def _open_plainly(path: str, flags: int) -> int:
@@ -179,7 +207,7 @@ def _is_trusted(status: os.stat_result) -> bool:
     return is_own and stat.S_ISREG(status.st_mode)
 
 
-def _save(path: Path, code: bytes) -> None:
+def save(path: Path, code: bytes) -> None:
     """Write a cache file that only this user can change; where that fails, the next process compiles again."""
     with suppress(OSError):
         path.parent.parent.mkdir(parents=True, exist_ok=True)

@@ -8,6 +8,7 @@ from contextlib import ExitStack
 
 import numpy as np
 
+from ..chain import _layout as layout
 from ..chain._chain import Drawing
 from ..errors import caller
 from ..image import Image, decode_bmp, total
@@ -27,8 +28,6 @@ MOST_EXTRA = 0.3
 LEAST_PIXELS = 1024
 #: The most pixels of a part: about 50 MB for its pixels and buffers.
 MOST_PIXELS = 1 << 22
-#: Pixels of the bands in which a contract draws, as in Pipeline.sol.
-BAND_PIXELS = 16384
 #: Pictures that take less gas are compared whole, which takes a second or two.
 COMPARED_GAS = 500_000_000
 HERE = How()
@@ -90,7 +89,7 @@ def _of_whole_bands(strips: int, width: int, height: int) -> int:
     """Return so many strips, or a few more: all of whole bands of the contract, where they divide the canvas."""
     if strips == 1:
         return 1
-    rows, band = height // strips, BAND_PIXELS // width
+    rows, band = height // strips, layout.BAND_PIXELS // width
     return -(-height // (rows - rows % band if rows > band else rows))
 
 

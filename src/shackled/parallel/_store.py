@@ -79,7 +79,7 @@ class PartStore:
         for tries_left in reversed(range(_TRIES)):
             try:
                 make_output_folder(self.folder)
-                return write_output(self._path(part), hashlib.sha256(body).digest() + body)
+                return write_output(self._path(part), hashlib.sha256(body).digest() + body, is_verified=True)
             except InputError:
                 if not tries_left:
                     raise

@@ -3,27 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any, Literal
+from typing import Any
 
 from attrs import field, frozen
 from numpy.typing import ArrayLike
 
 from ..base.checks import Floats, choice, number, optional_number, vector
 from ..base.synonyms import Given, with_synonyms
-from ..base.values import Value, checked, with_names
+from ..base.values import Value
 from ..errors import InputError
 from ._arithmetic import tangent
-
-Projection = Literal["perspective", "orthographic"]
-PROJECTIONS: tuple[Projection, ...] = ("perspective", "orthographic")
+from ._fields import FIELDS
+from ._fields import Projection as Projection
+from ._table import USUAL, from_table
 
 #: Half the height of the picture at distance 1, by default: a field of view of about 50 degrees (the tangent of half).
-DEFAULT_HALF_HEIGHT = 1 / 2.145
+DEFAULT_HALF_HEIGHT: float = FIELDS["Camera"]["half_height"].default
 
-#: The vertical fields of view of perspective cameras, in degrees.
-FIELDS_OF_VIEW = (0.2, 179.8)
-
-_EYE, _TARGET, _UP = (0, 0, 0), (0, 0, -1), (0, 1, 0)
+_EYE, _TARGET, _UP = (FIELDS["Camera"][name].default for name in ("eye", "target", "up"))
 
 
 def _with_fov(given: Given) -> Given:
@@ -46,7 +43,7 @@ def half_height_in(given: Mapping[str, Any], orthographic: bool) -> float | None
 
 
 @with_synonyms("fov", read=_with_fov)
-@frozen(field_transformer=with_names)
+@frozen(field_transformer=from_table)
 class Camera(Value):
     """A camera anywhere in a right-handed world with +y up.
 
@@ -58,16 +55,12 @@ class Camera(Value):
         1/1,024 of the farthest distance of an object; an orthographic camera then clips nothing.
     """
 
-    eye: Floats = field(default=_EYE, converter=vector, metadata=checked("the camera's eye"))
-    target: Floats = field(default=_TARGET, converter=vector, metadata=checked("the camera's target"))
-    up: Floats = field(default=_UP, converter=vector, metadata=checked("the camera's up"))
-    projection: Projection = field(
-        default="perspective", converter=choice, metadata=checked("the camera's projection", PROJECTIONS)
-    )
-    half_height: float = field(
-        default=DEFAULT_HALF_HEIGHT, converter=number, metadata=checked("the camera's half_height")
-    )
-    near: float | None = field(default=None, converter=optional_number, metadata=checked("the camera's near distance"))
+    eye: Floats = field(default=USUAL, converter=vector)
+    target: Floats = field(default=USUAL, converter=vector)
+    up: Floats = field(default=USUAL, converter=vector)
+    projection: Projection = field(default=USUAL, converter=choice)
+    half_height: float = field(default=USUAL, converter=number)
+    near: float | None = field(default=None, converter=optional_number)
 
     def __attrs_post_init__(self) -> None:
         """Check the lengths, whose ranges depend on the projection."""
@@ -109,4 +102,4 @@ class Camera(Value):
 
 def half_height_of(fov: float) -> float:
     """Return the `half_height` of a perspective camera with a vertical field of view of `fov` degrees."""
-    return tangent(number(fov, "the field of view in degrees", *FIELDS_OF_VIEW) / 2)
+    return tangent(number(fov, "the field of view in degrees", *FIELDS["Camera"]["fov"].limits) / 2)

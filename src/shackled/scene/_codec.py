@@ -144,7 +144,7 @@ def _records(scene: Scene) -> dict[tuple[int, int], bytes]:
         near, far = _q32([scene.fog.near, scene.fog.far])
         found[record.FOG, 0] = bytes(scene.fog.color) + struct.pack(">2q", near, max(far, near + 1))
     if scene.tone is not None:
-        flags = record.TONE_FILMIC * scene.tone.filmic + record.TONE_GAMMA * scene.tone.gamma
+        flags = sum(bit * getattr(scene.tone, name) for name, bit in record.TONE_FLAGS.items())
         found[record.TONE, 0] = struct.pack(">IB", max(round(scene.tone.exposure / EXPOSURE_STEP), 1), flags)
     return found
 

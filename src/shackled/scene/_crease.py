@@ -10,6 +10,7 @@ import numpy as np
 from attrs import evolve
 from numpy.typing import NDArray
 
+from . import _constants as constant
 from ._arithmetic import cosine, dot, length, units
 from ._mesh import Mesh, components, face_normals, weld
 from ._object import Object, Shading
@@ -19,36 +20,8 @@ Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 Flags = NDArray[np.bool_]
 
-CREASES = (0, 180)
-#: The largest angle between faces, in degrees, at which the edge between them is smooth, and that up to which a crease
-#: that ends within a surface is smooth. In solids of flat faces, chamfers and octagons, 45 degrees, stay hard; coarse
-#: round shapes, such as a cylinder of 9 sides, do not.
-_SOLID = (40.0, 60.0)
-#: In other shapes, such as figures and scans.
-_FIGURE = (75.0, 75.0)
-#: In parts of few faces that are all corners, such as hulls, unless they belong to a figure.
-_FACETS = (1.0, 1.0)
-_ANGLES = (_SOLID, _FIGURE, _FACETS)
-#: A part is a solid of flat faces if edges within these, of at most so many degrees, are this share of the length of
-#: all its edges. It is 0.2 to 0.8 for constructed parts, at most 0.04 for figures.
-_FLAT, _FLAT_SHARE = 0.25, 0.12
-#: So is one with rounded coordinates, whose angles have a gap: edges above the second angle are so many times as long
-#: as those between both, and at least this share of all.
-_GAP, _GAP_TIMES, _GAP_SHARE = (35.0, 65.0), 3.0, 0.05
-#: Others of at most so many faces are all corners if they turn by more than these degrees at their edges on the
-#: average, or by more than the lower ones, unevenly: the standard deviation of the angles is this part of the mean.
-_FEW_FACES, _COARSE, _UNEVEN = 100, (15.0, 30.0), 0.4
-#: Faces of figures that are lower than this part of their longest edge, and less than half as large as the face on its
-#: other side, are left by simplification: they have the direction of that face.
-_NEEDLE = 0.1
-#: An edge of exactly the crease angle is smooth, however its cosine is rounded.
-_ROUNDING = 1e-6
-#: Normals are rounded to so many digits, so that they are the same on all machines.
-_DIGITS = 6
-#: The cosine of the angle, 1 degree, by which normals may differ from those of the faces in a mesh without curves.
-_STRAIGHT = 0.99985
-#: An edge of more pairs of faces is a crease.
-_MOST_PAIRS = 16
+#: Where edges are smooth, by shape.
+_ANGLES = (constant.SOLID, constant.FIGURE, constant.FACETS)
 
 
 def creased(mesh: Mesh, degrees: float | None = None) -> Mesh:
@@ -102,10 +75,10 @@ def corner_normals(positions: Floats, faces: Ints, degrees: float | None = None,
         if degrees is None:
             shape, ways = _by_shape(unique, corners, directions, here, there, links)
         else:
-            shape, ways, angles_of = np.zeros(1, np.int64), directions, ((degrees, _SOLID[1]),)
+            shape, ways, angles_of = np.zeros(1, np.int64), directions, ((degrees, constant.SOLID[1]),)
         limits = np.array([[cosine(each) for each in row] for row in angles_of])[shape]
         cosines = dot(ways[here], ways[there])
-        hard = cosines < limits[:, 0] - _ROUNDING
+        hard = cosines < limits[:, 0] - constant.ROUNDING
         hard = _without_dead_ends(hard, cosines > limits[:, 1], corners, proper, links)
     else:
         hard = (groups[here] != groups[there]) | (groups[here] == 0)
@@ -121,7 +94,7 @@ def corner_normals(positions: Floats, faces: Ints, degrees: float | None = None,
     normals = units(sums)[patch]
     normals = np.where(normals.any(axis=2, keepdims=True), normals, directions[:, None])
     normals[is_against] = -normals[is_against, ::-1]
-    return np.asarray(np.round(normals, _DIGITS) + 0.0)
+    return np.asarray(np.round(normals, constant.DIGITS) + 0.0)
 
 
 def filled(positions: Floats, faces: Ints, normals: Floats) -> Floats:
@@ -134,7 +107,7 @@ def is_flat(positions: Floats, faces: Ints, normals: Floats) -> bool:
     """Return whether normals of corners, (m, 3, 3), are those of the faces."""
     areas, _ = _areas_and_angles(positions, faces)
     along = dot(normals, np.broadcast_to(areas[:, None], normals.shape))
-    return bool((along >= _STRAIGHT * length(normals) * length(areas)[:, None]).all())
+    return bool((along >= constant.STRAIGHT * length(normals) * length(areas)[:, None]).all())
 
 
 def _by_shape(
@@ -153,22 +126,22 @@ def _by_shape(
         totals, sums = (np.bincount(each, lengths * among * v, part.max() + 1) for v in (np.ones(len(turns)), values))
         return np.divide(sums, totals, out=np.zeros(len(sums)), where=totals > 0)
 
-    all_edges, seen = turns >= 0, turns > _FACETS[0]
-    is_flat_faced = mean(turns <= _FLAT, all_edges) >= _FLAT_SHARE
+    all_edges, seen = turns >= 0, turns > constant.FACETS[0]
+    is_flat_faced = mean(turns <= constant.FLAT, all_edges) >= constant.FLAT_SHARE
     average = mean(turns, seen)
-    blunt = seen & (turns <= _GAP[1])
+    blunt = seen & (turns <= constant.GAP[1])
     middle = mean(turns, blunt)
-    is_uneven = np.sqrt(mean((turns - middle[each]) ** 2, blunt)) >= _UNEVEN * middle
-    is_all_corners = ~is_flat_faced & (np.bincount(part) <= _FEW_FACES)
-    is_all_corners &= average > np.where(is_uneven, *_COARSE)
-    sharp = mean(turns > _GAP[1], all_edges)
-    middling = mean((turns > _GAP[0]) & (turns <= _GAP[1]), all_edges)
-    is_solid = is_flat_faced | ((sharp >= _GAP_TIMES * middling) & (sharp >= _GAP_SHARE))
+    is_uneven = np.sqrt(mean((turns - middle[each]) ** 2, blunt)) >= constant.UNEVEN * middle
+    is_all_corners = ~is_flat_faced & (np.bincount(part) <= constant.FEW_FACES)
+    is_all_corners &= average > np.where(is_uneven, *constant.COARSE)
+    sharp = mean(turns > constant.GAP[1], all_edges)
+    middling = mean((turns > constant.GAP[0]) & (turns <= constant.GAP[1]), all_edges)
+    is_solid = is_flat_faced | ((sharp >= constant.GAP_TIMES * middling) & (sharp >= constant.GAP_SHARE))
     is_figure = ~is_solid & ~is_all_corners
     shape = np.where(is_all_corners & ~is_figure.any(), 2, np.where(is_solid, 0, 1))
     longest = length(np.diff(places[corners[:, [0, 1, 2, 0]]], axis=1)).max(axis=1)
     areas = length(_areas_and_angles(points, corners)[0])
-    is_needle = (shape == 1)[part] & (areas < _NEEDLE * longest**2)
+    is_needle = (shape == 1)[part] & (areas < constant.NEEDLE * longest**2)
     directions = normals.copy()
     for one, other in ((here, there), (there, here)):
         found = is_needle[one] & (lengths >= (1 - 1e-9) * longest[one]) & (2 * areas[one] < areas[other])
@@ -225,7 +198,7 @@ def _neighbours(corners: Ints, proper: Ints, count: int) -> tuple[Ints, Ints, In
     downward = downward[np.argsort(keys[downward], kind="stable")]
     first = np.searchsorted(keys[downward], keys[upward], "left")
     pairs = np.searchsorted(keys[downward], keys[upward], "right") - first
-    pairs[pairs > _MOST_PAIRS] = 0
+    pairs[pairs > constant.MOST_PAIRS] = 0
     one = np.repeat(upward, pairs)
     other = downward[np.repeat(first - np.cumsum(pairs) + pairs, pairs) + np.arange(len(one))]
     links = np.stack([tails[one], heads[other], heads[one], tails[other]], axis=1).reshape(-1, 2)

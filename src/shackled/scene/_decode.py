@@ -30,10 +30,10 @@ from ._codec import (
     extensions,
     render_call,
 )
+from ._constants import MAX_COORDINATE
 from ._effects import Background, Fog, Hemisphere, Rim, Tone
 from ._files.table import about
 from ._ground import Ground
-from ._in_range import MAX_COORDINATE
 from ._light import Light
 from ._object import Material, Object
 from ._packed import unpack, unpack_alpha, unpack_texture
@@ -228,7 +228,6 @@ def _effects(records: Records) -> dict[str, Any]:
         found["fog"] = Fog(tuple(content[:3]), *(each / ONE for each in struct.unpack(">2q", content[3:])))
     if (content := records.get((record.TONE, 0))) is not None:
         exposure, flags = struct.unpack(">IB", content)
-        found["tone"] = Tone(
-            exposure * EXPOSURE_STEP, bool(flags & record.TONE_FILMIC), bool(flags & record.TONE_GAMMA)
-        )
+        set_flags = {name: bool(flags & bit) for name, bit in record.TONE_FLAGS.items()}
+        found["tone"] = Tone(exposure * EXPOSURE_STEP, **set_flags)
     return found

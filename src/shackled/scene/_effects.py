@@ -11,19 +11,16 @@ from typing import Any, TypeVar
 from attrs import Factory, field, frozen
 
 from ..base.checks import Color, color, flag, instance, number, whole
-from ..base.values import checked, with_names
 from ..errors import InputError
+from ._table import USUAL, from_table
 
-#: The range of the exponent of a rim, and that of exposures.
-POWERS = (1, 16)
-EXPOSURES = (0, 64)
 #: What removes an effect, as a setting of a look.
 NONE = "none"
 
 Effect = TypeVar("Effect")
 
 
-@frozen(field_transformer=with_names)
+@frozen(field_transformer=from_table)
 class Hemisphere:
     """Light from everywhere above and below, in proportion to the ambient coefficients of materials.
 
@@ -31,22 +28,22 @@ class Hemisphere:
     is added to the ambient light of the scene.
     """
 
-    sky: Color = field(converter=color, metadata=checked("the sky of a hemisphere"))
-    ground: Color = field(default=(0, 0, 0), converter=color, metadata=checked("the ground of a hemisphere"))
+    sky: Color = field(converter=color)
+    ground: Color = field(default=USUAL, converter=color)
 
 
-@frozen(field_transformer=with_names)
+@frozen(field_transformer=from_table)
 class Rim:
     """Light along the outlines of objects, where the surface turns away from the viewer.
 
     power: 1 (wide) to 16 (narrow), a whole number.
     """
 
-    color: Color = field(converter=color, metadata=checked("the colour of a rim"))
-    power: int = field(default=3, converter=whole, metadata=checked("the power of a rim", *POWERS))
+    color: Color = field(converter=color)
+    power: int = field(default=USUAL, converter=whole)
 
 
-@frozen(field_transformer=with_names)
+@frozen(field_transformer=from_table)
 class Fog:
     """Fog, through which nothing is seen from some distance on; the background has none.
 
@@ -54,9 +51,9 @@ class Fog:
     everything.
     """
 
-    color: Color = field(converter=color, metadata=checked("the colour of the fog"))
-    near: float = field(converter=number, metadata=checked("the near distance of the fog", 0))
-    far: float = field(converter=number, metadata=checked("the far distance of the fog", 0))
+    color: Color = field(converter=color)
+    near: float = field(converter=number)
+    far: float = field(converter=number)
 
     def __attrs_post_init__(self) -> None:
         """Check the distances against each other."""
@@ -66,7 +63,7 @@ class Fog:
             )
 
 
-@frozen(field_transformer=with_names)
+@frozen(field_transformer=from_table)
 class Tone:
     """How the light of surfaces becomes colours.
 
@@ -75,24 +72,20 @@ class Tone:
     gamma: whether light is added up in linear space, as in nature, instead of as sRGB values.
     """
 
-    exposure: float = field(default=1.0, converter=number, metadata=checked("the exposure", *EXPOSURES))
-    filmic: bool = field(default=False, converter=flag, metadata=checked("filmic of a tone"))
-    gamma: bool = field(default=False, converter=flag, metadata=checked("gamma of a tone"))
+    exposure: float = field(default=USUAL, converter=number)
+    filmic: bool = field(default=USUAL, converter=flag)
+    gamma: bool = field(default=USUAL, converter=flag)
 
 
-@frozen(field_transformer=with_names)
+@frozen(field_transformer=from_table)
 class Background:
     """A vertical gradient from the colour of the top row to that of the bottom row, by default the same.
 
     Colours are red, green, blue, 0..255; also given as floats 0..1, "#rrggbb" or a name.
     """
 
-    top: Color = field(default=(0, 0, 0), converter=color, metadata=checked("the background colour"))
-    bottom: Color = field(
-        default=Factory(lambda self: self.top, takes_self=True),
-        converter=color,
-        metadata=checked("the colour at the bottom of the background"),
-    )
+    top: Color = field(default=USUAL, converter=color)
+    bottom: Color = field(default=Factory(lambda self: self.top, takes_self=True), converter=color)
 
 
 # ---- from what may be given in their place ----

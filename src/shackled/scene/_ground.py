@@ -10,11 +10,11 @@ from attrs import evolve, field, frozen
 from numpy.typing import ArrayLike
 
 from ..base.checks import Color, Floats, color, optional_number, vector
-from ..base.values import checked, with_names
 from ..errors import InputError
 from ._arithmetic import length
 from ._mesh import Mesh
 from ._object import Material, Object
+from ._table import from_table
 
 #: The radius of a ground, as a multiple of half the diagonal of the box around the objects; the part of the radius at
 #: which it begins to fade; how far it is below the lowest vertex, as a part of that half diagonal.
@@ -25,10 +25,10 @@ MATERIAL = Material("flat", ambient=0.4, diffuse=0.7, specular=0.0)
 STEP = 2.0**-20
 
 
-def _center(value: ArrayLike | None) -> tuple[float, float] | None:
+def _center(value: ArrayLike | None, name: str = "the center") -> tuple[float, float] | None:
     if value is None:
         return None
-    x, z = vector(value, "the center of a ground", 2).tolist()
+    x, z = vector(value, name, 2).tolist()
     return x, z
 
 
@@ -37,7 +37,7 @@ def _check_radii(inner: float, radius: float) -> None:
         raise InputError(f"the inner radius of a ground, {inner:g}, must be below its radius, {radius:g}")
 
 
-@frozen(field_transformer=with_names)
+@frozen(field_transformer=from_table)
 class Ground:
     """A level, matte disc under the objects, which receives shadows and fades into the background; it is drawn last.
 
@@ -47,13 +47,11 @@ class Ground:
     inner: where it begins to fade, in world units, at least 0 and below the radius; 0.4 of the radius by default.
     """
 
-    color: Color = field(converter=color, metadata=checked("the colour of a ground"))
-    height: float | None = field(default=None, converter=optional_number, metadata=checked("the height of a ground"))
-    radius: float | None = field(default=None, converter=optional_number, metadata=checked("the radius of a ground", 0))
+    color: Color = field(converter=color)
+    height: float | None = field(default=None, converter=optional_number)
+    radius: float | None = field(default=None, converter=optional_number)
     center: tuple[float, float] | None = field(default=None, converter=_center)
-    inner: float | None = field(
-        default=None, converter=optional_number, metadata=checked("the inner radius of a ground", 0)
-    )
+    inner: float | None = field(default=None, converter=optional_number)
 
     def __attrs_post_init__(self) -> None:
         """Check the radii."""

@@ -18,6 +18,7 @@ from attrs import evolve
 from numpy.typing import NDArray
 
 from ..errors import InputError
+from . import _constants as constant
 from ._arithmetic import dot, length, rotate, unit
 from ._camera import Camera
 from ._light import Light
@@ -28,26 +29,8 @@ from ._scene import Scene
 
 Array = NDArray[np.float64]
 
-#: Limits of the contracts (contracts/src/scene/Checks.sol), in world units.
-MAX_COORDINATE = 2.0**26
-MIN_HALF_HEIGHT = 2.0**-12
-STEP = 2.0**-32
 #: A mesh of so many bits a coordinate must not be scaled by more; one of other coordinates is quantized.
-MAX_SCALE = {16: 2.0**12, 24: 2.0**4, None: -1.0}
-
-#: The largest step of a mesh's grid, in pixels, before a finer grid is used.
-STEP_IN_PIXELS = 1 / 32
-
-#: The sizes of scenes that are not scaled. A scene that was moved, with its eye at the origin, may reach farther.
-EXACT_SIZES = (2.0**-2, 2.0**22)
-#: The exponents to which others are scaled: of their largest object, and of the farthest point at most.
-SIZE_EXPONENT = 12
-REACH_EXPONENT = 25
-
-#: The default near plane as a share of the farthest distance.
-NEAR_PART = 2.0**-10
-#: Directions of these lengths keep their precision in multiples of 2^-32.
-DIRECTION_LENGTHS = (2.0**-8, 2.0**20)
+MAX_SCALE = {16: constant.MAX_SCALE_SHORT, 24: constant.MAX_SCALE_WIDE, None: -1.0}
 
 
 @np.errstate(over="ignore", invalid="ignore")
@@ -119,12 +102,12 @@ def _is_exact(scene: Scene) -> bool:
     is_moved = not camera.eye.any() and (camera.near is not None or camera.projection == "orthographic")
     largest = max(map(abs, lengths))
     return (
-        EXACT_SIZES[0] <= reach
-        and (reach <= EXACT_SIZES[1] or (is_moved and largest <= MAX_COORDINATE))
-        and all(each % STEP == 0 for each in lengths)
-        and (camera.projection == "perspective" or camera.half_height >= MIN_HALF_HEIGHT)
-        and bool(length(view) >= DIRECTION_LENGTHS[0])
-        and (scene.fog is None or scene.fog.far <= MAX_COORDINATE)
+        constant.EXACT_SIZES[0] <= reach
+        and (reach <= constant.EXACT_SIZES[1] or (is_moved and largest <= constant.MAX_COORDINATE))
+        and all(each % constant.STEP == 0 for each in lengths)
+        and (camera.projection == "perspective" or camera.half_height >= constant.MIN_HALF_HEIGHT)
+        and bool(length(view) >= constant.DIRECTION_LENGTHS[0])
+        and (scene.fog is None or scene.fog.far <= constant.MAX_COORDINATE)
     )
 
 
@@ -141,8 +124,8 @@ def _factor(scene: Scene) -> float:
     if scene.fog is not None:
         # what is so near to the eye is clear in fog that ends beyond
         reach = max(reach, min(scene.fog.far, 1024 * reach))
-    exponent = REACH_EXPONENT - math.frexp(reach)[1] if reach else 0
-    exponent = min(exponent, SIZE_EXPONENT - math.frexp(size)[1]) if size else exponent
+    exponent = constant.REACH_EXPONENT - math.frexp(reach)[1] if reach else 0
+    exponent = min(exponent, constant.SIZE_EXPONENT - math.frexp(size)[1]) if size else exponent
     return math.ldexp(1.0, min(max(exponent, -1000), 1000))
 
 
@@ -164,8 +147,8 @@ def _moved(scene: Scene, factor: float) -> Scene:
     eye, fog, camera = scene.camera.eye, scene.fog, _move_camera(scene, factor)
     if fog is not None:
         # nothing is as far away as the largest distances
-        far = min(max(fog.far * factor, STEP), MAX_COORDINATE)
-        fog = evolve(fog, near=min(fog.near * factor, MAX_COORDINATE - 1), far=far)
+        far = min(max(fog.far * factor, constant.STEP), constant.MAX_COORDINATE)
+        fog = evolve(fog, near=min(fog.near * factor, constant.MAX_COORDINATE - 1), far=far)
     lights = [light if light.kind == "directional" else _move_light(light, eye, factor) for light in scene.lights]
     objects = [_move_object(o, scene, factor, camera.near or 0.0) for o in scene.objects]
     return evolve(scene, objects=objects, camera=camera, lights=lights, fog=fog)
@@ -175,16 +158,16 @@ def _move_camera(scene: Scene, factor: float) -> Camera:
     camera = scene.camera
     forward, up = unit(camera.target - camera.eye), unit(camera.up)
     half_height = camera.half_height * (factor if camera.projection == "orthographic" else 1)
-    if camera.projection == "orthographic" and half_height < MIN_HALF_HEIGHT:
+    if camera.projection == "orthographic" and half_height < constant.MIN_HALF_HEIGHT:
         raise InputError(f"the camera's half_height {camera.half_height:g} is too small for the size of the scene")
     return evolve(
         camera,
         eye=(0, 0, 0),
-        target=forward * 2.0**SIZE_EXPONENT,
+        target=forward * 2.0**constant.SIZE_EXPONENT,
         # upright on the line of sight, so that the cross product loses nothing
         up=unit(up - dot(up, forward) * forward),
         half_height=half_height,
-        near=near_plane(scene, factor, most=MAX_COORDINATE),
+        near=near_plane(scene, factor, most=constant.MAX_COORDINATE),
     )
 
 
@@ -195,18 +178,18 @@ def near_plane(scene: Scene, factor: float = 1.0, most: float = math.inf) -> flo
     camera = scene.camera
     if camera.projection == "orthographic":
         near = -math.inf if camera.near is None else camera.near * factor
-        return min(max(near, -MAX_COORDINATE), MAX_COORDINATE)
+        return min(max(near, -constant.MAX_COORDINATE), constant.MAX_COORDINATE)
     if camera.near is not None:
-        return min(max(camera.near * factor, STEP), MAX_COORDINATE)
+        return min(max(camera.near * factor, constant.STEP), constant.MAX_COORDINATE)
     _, farthest = _extent(scene)
-    return max(min(farthest * factor * NEAR_PART, most), STEP) if farthest else 1.0
+    return max(min(farthest * factor * constant.NEAR_PART, most), constant.STEP) if farthest else 1.0
 
 
 def _move_light(light: Light, eye: Array, factor: float) -> Light:
     place = (light.vector - eye) * factor
     # a light so far away keeps its direction
     largest = float(np.abs(place).max())
-    return evolve(light, vector=place * min(1.0, 2.0**REACH_EXPONENT / largest) if largest else place)
+    return evolve(light, vector=place * min(1.0, 2.0**constant.REACH_EXPONENT / largest) if largest else place)
 
 
 def _move_object(o: Object, scene: Scene, factor: float, near: float) -> Object:
@@ -233,10 +216,10 @@ def _steps(o: Object, radius: float, scene: Scene, factor: float, near: float) -
         places = o.world_positions() - camera.eye
         pixels /= max(float(dot(places, forward).min()), near / factor)
     size = o.scale * radius
-    if size * pixels <= STEP_IN_PIXELS * MAX_SHORT:
+    if size * pixels <= constant.STEP_IN_PIXELS * MAX_SHORT:
         return MAX_SHORT
     # the contract's matrix is rounded to 2^-32 units a step: with more steps that would be more than one of them
-    return int(min(max(math.sqrt(size * factor / STEP), MAX_SHORT), MAX_WIDE))
+    return int(min(max(math.sqrt(size * factor / constant.STEP), MAX_SHORT), MAX_WIDE))
 
 
 def _box(positions: Array) -> tuple[Array, float]:
@@ -246,7 +229,7 @@ def _box(positions: Array) -> tuple[Array, float]:
 
 
 def _direction(v: Array) -> Array:
-    low, high = DIRECTION_LENGTHS
+    low, high = constant.DIRECTION_LENGTHS
     return v if low <= np.abs(v).max() <= high else unit(v)
 
 

@@ -3,25 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from typing import Any, Literal, TypeVar
+from typing import Any, TypeVar
 
 from attrs import field, frozen
 from numpy.typing import ArrayLike
 
 from ..base.checks import Color, Floats, choice, color, flag, instance, number, optional_vector, vector
 from ..base.synonyms import Given, with_synonyms
-from ..base.values import Value, checked, with_names
+from ..base.values import Value, checked
 from ..errors import InputError
-
-LightKind = Literal["directional", "point", "spot"]
-LIGHT_KINDS: tuple[LightKind, ...] = ("directional", "point", "spot")
+from ._constants import MAX_LIGHTS as MAX_LIGHTS
+from ._fields import FIELDS
+from ._fields import LIGHT_KINDS as LIGHT_KINDS
+from ._fields import LightKind as LightKind
+from ._table import USUAL, from_table
 
 #: Degrees, of a spot light whose angles are not given; as in glTF.
-INNER_ANGLE = 0.0
-OUTER_ANGLE = 45.0
+INNER_ANGLE, OUTER_ANGLE = (float(FIELDS["Light"][name].default) for name in ("inner_angle", "outer_angle"))
 WHITE = (255, 255, 255)
-#: The most lights of a scene.
-MAX_LIGHTS = 4
 
 Item = TypeVar("Item")
 
@@ -46,7 +45,7 @@ def _of_words(given: Given) -> Given:
 
 
 @with_synonyms("toward", "position", read=_of_words)
-@frozen(field_transformer=with_names)
+@frozen(field_transformer=from_table)
 class Light(Value):
     """One light; a scene has up to four. `Light.directional`, `Light.point` and `Light.spot` make one of each kind.
 
@@ -60,19 +59,13 @@ class Light(Value):
     shadow: whether objects cast shadows in its light; one light of a scene at most.
     """
 
-    kind: LightKind = field(converter=choice, metadata=checked("the kind of a light", LIGHT_KINDS))
+    kind: LightKind = field(converter=choice)
     vector: Floats = field(converter=vector, metadata=checked("the direction or position of a light"))
-    color: Color = field(default=WHITE, converter=color, metadata=checked("the colour of a light"))
-    direction: Floats | None = field(
-        default=None, converter=optional_vector, metadata=checked("the direction of a spot light")
-    )
-    inner_angle: float = field(
-        default=INNER_ANGLE, converter=number, metadata=checked("the inner_angle of a spot light", 0, 180)
-    )
-    outer_angle: float = field(
-        default=OUTER_ANGLE, converter=number, metadata=checked("the outer_angle of a spot light", 0, 180)
-    )
-    shadow: bool = field(default=False, converter=flag, metadata=checked("shadow of a light"))
+    color: Color = field(default=USUAL, converter=color)
+    direction: Floats | None = field(default=None, converter=optional_vector)
+    inner_angle: float = field(default=USUAL, converter=number)
+    outer_angle: float = field(default=USUAL, converter=number)
+    shadow: bool = field(default=USUAL, converter=flag)
 
     def __attrs_post_init__(self) -> None:
         """Check the fields against one another."""

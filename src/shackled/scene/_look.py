@@ -11,11 +11,11 @@ from attrs import evolve, frozen
 
 from ..base.checks import Color, Floats
 from ..errors import InputError
+from . import _constants as constant
 from ._arithmetic import IDENTITY, dot, length, multiply, rotate
 from ._camera import DEFAULT_HALF_HEIGHT, Camera, Projection, half_height_in
 from ._crease import is_flat, shaded, with_normals
 from ._effects import Fog, Tone
-from ._in_range import NEAR_PART
 from ._mesh import Mesh
 from ._object import Material, Object
 from ._presets import preset_of
@@ -177,7 +177,7 @@ def _frame(lit: _Staged) -> _Staged:
     """Return the scene with its camera, and with fog between the nearest and the farthest point that this shows."""
     camera, fog = lit.camera(), lit.look.get("fog", lit.scene.fog)
     if lit.has_strays and camera.near is None and camera.projection == "perspective":
-        camera = evolve(camera, near=NEAR_PART * (float(length(camera.eye)) + 1))
+        camera = evolve(camera, near=constant.NEAR_PART * (float(length(camera.eye)) + 1))
     if isinstance(fog, tuple):
         fog = _fog_between(camera, lit.points, fog)
     return evolve(lit, scene=evolve(lit.scene, camera=camera, fog=fog))

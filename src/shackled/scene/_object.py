@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import os
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 from attrs import evolve, field, frozen
@@ -11,20 +11,13 @@ from numpy.typing import ArrayLike
 
 from ..base.checks import Color, Floats, choice, color, flag, instance, number, vector, whole
 from ..base.synonyms import Given, with_synonyms
-from ..base.values import Value, checked, with_names
+from ..base.values import Value, checked
 from ..errors import InputError
 from ._arithmetic import ORTHOGONAL, matrix_of, quaternion_of, rotate, rotation_of
+from ._fields import Shading as Shading
 from ._mesh import Mesh, is_trimesh
+from ._table import USUAL, from_table
 from ._texture import Texture
-
-Shading = Literal["unlit", "flat", "smooth"]
-SHADINGS: tuple[Shading, ...] = ("unlit", "flat", "smooth")
-
-#: The ranges of the coefficients and of the exponent.
-COEFFICIENTS = (0, 4)
-EXPONENTS = (1, 128)
-#: The range of an opacity.
-OPACITIES = (0, 1)
 
 
 def _texture(value: Texture | None) -> Texture | None:
@@ -33,12 +26,8 @@ def _texture(value: Texture | None) -> Texture | None:
     return None if value is None else instance(value, "the texture of a material", Texture)
 
 
-def _coefficient(name: str) -> dict[str, Any]:
-    return checked(f"the {name} coefficient of a material", *COEFFICIENTS)
-
-
 @with_synonyms()
-@frozen(field_transformer=with_names)
+@frozen(field_transformer=from_table)
 class Material:
     """Coefficients of Blinn-Phong shading, each 0..4; the exponent `shininess` 1..128, a whole number.
 
@@ -49,13 +38,13 @@ class Material:
         are not lit by it.
     """
 
-    shading: Shading = field(default="flat", converter=choice, metadata=checked("the shading of a material", SHADINGS))
-    ambient: float = field(default=0.3, converter=number, metadata=_coefficient("ambient"))
-    diffuse: float = field(default=0.75, converter=number, metadata=_coefficient("diffuse"))
-    specular: float = field(default=0.3, converter=number, metadata=_coefficient("specular"))
-    shininess: int = field(default=24, converter=whole, metadata=checked("the shininess of a material", *EXPONENTS))
+    shading: Shading = field(default=USUAL, converter=choice)
+    ambient: float = field(default=USUAL, converter=number)
+    diffuse: float = field(default=USUAL, converter=number)
+    specular: float = field(default=USUAL, converter=number)
+    shininess: int = field(default=USUAL, converter=whole)
     texture: Texture | None = field(default=None, converter=_texture)
-    emission: Color = field(default=(0, 0, 0), converter=color, metadata=checked("the emission of a material"))
+    emission: Color = field(default=USUAL, converter=color)
 
 
 def _mesh(value: Mesh) -> Mesh:
@@ -70,12 +59,12 @@ def _material(value: Material) -> Material:
     return instance(value, "the material of an object", Material)
 
 
-def _fade(value: ArrayLike | None) -> tuple[float, float] | None:
+def _fade(value: ArrayLike | None, name: str = "the fade") -> tuple[float, float] | None:
     if value is None:
         return None
-    first, second = vector(value, "the fade of an object", 2).tolist()
+    first, second = vector(value, name, 2).tolist()
     if not 0 <= first < second:
-        raise InputError(f"the distances of the fade of an object must be 0 <= first < second, not {value!r:.60}")
+        raise InputError(f"the distances of {name} must be 0 <= first < second, not {value!r:.60}")
     return first, second
 
 
@@ -99,7 +88,7 @@ def _place(matrix: ArrayLike) -> Given:
 
 
 @with_synonyms("color", "transform", read=_of_words)
-@frozen(field_transformer=with_names)
+@frozen(field_transformer=from_table)
 class Object(Value):
     """p = position + rotation(scale * v) for every vertex v of the mesh.
 
@@ -116,15 +105,15 @@ class Object(Value):
     """
 
     mesh: Mesh = field(converter=_mesh)
-    position: Floats = field(default=(0, 0, 0), converter=vector, metadata=checked("the position of an object"))
-    rotation: Floats = field(default=(0, 0, 0, 1), converter=rotation_of, metadata=checked("the rotation of an object"))
-    scale: float = field(default=1.0, converter=number, metadata=checked("the scale of an object", 0))
+    position: Floats = field(default=USUAL, converter=vector)
+    rotation: Floats = field(default=USUAL, converter=rotation_of, metadata=checked("the rotation of an object"))
+    scale: float = field(default=USUAL, converter=number)
     material: Material = field(factory=Material, converter=_material)
-    cull: bool = field(default=True, converter=flag, metadata=checked("cull of an object"))
-    wireframe: bool = field(default=False, converter=flag, metadata=checked("wireframe of an object"))
-    opacity: float = field(default=1.0, converter=number, metadata=checked("the opacity of an object", *OPACITIES))
+    cull: bool = field(default=USUAL, converter=flag)
+    wireframe: bool = field(default=USUAL, converter=flag)
+    opacity: float = field(default=USUAL, converter=number)
     fade: tuple[float, float] | None = field(default=None, converter=_fade)
-    two_sided: bool = field(default=False, converter=flag, metadata=checked("two_sided of an object"))
+    two_sided: bool = field(default=USUAL, converter=flag)
 
     def __attrs_post_init__(self) -> None:
         """Check that a texture has its coordinates."""

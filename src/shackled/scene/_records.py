@@ -26,6 +26,8 @@ SHADOWS_FRONT_FACES = 3
 LONG_KINDS = 8
 #: Bytes of a record before its content.
 RECORD_HEADER = 5
+#: The flags of a tone, by its fields.
+TONE_FLAGS = {"filmic": TONE_FILMIC, "gamma": TONE_GAMMA}
 #: Bytes of its content; None for any number of words.
 SIZES: dict[int, int | None] = {
     SPOT: 40,

@@ -12,17 +12,18 @@ from attrs import field, frozen
 
 from ..base.checks import Color, Floats, color, flag, instance, integer
 from ..base.synonyms import Hinted, with_synonyms
-from ..base.values import checked, plural, with_names
+from ..base.values import plural
 from ..base.whole_file import check_output_file, write_output
 from ..errors import InputError
 from ._camera import Camera
 from ._effects import Background, Fog, Hemisphere, Rim, Tone, background_of, fog_of, hemisphere_of, rim_of, tone_of
 from ._files.written import encode_document, fields_of
 from ._ground import Ground, ground_of
-from ._light import WHITE, Light, lights_of, parts_of
+from ._light import Light, lights_of, parts_of
 from ._mesh import Mesh, is_trimesh
 from ._object import Object
-from ._staging import DEFAULT_SIDE, MAX_SIDE, staged
+from ._staging import staged
+from ._table import USUAL, from_table
 
 
 def _objects(value: Object | Mesh | Iterable[Object | Mesh]) -> tuple[Object, ...]:
@@ -36,15 +37,15 @@ def _camera(value: Camera | None) -> Camera:
     return value if value is None else instance(value, "the camera of a scene", Camera)  # type: ignore[return-value]
 
 
-def _side(value: int, name: str = "side") -> int:
+def _side(value: int, name: str = "side", low: int = 1, high: int = 1) -> int:
     side = integer(value)
-    if side is None or not 1 <= side <= MAX_SIDE:
-        raise InputError(f"the {name} of a picture must be from 1 to {MAX_SIDE} pixels, not {value!r:.60}")
+    if side is None or not low <= side <= high:
+        raise InputError(f"the {name} of a picture must be from {low} to {high} pixels, not {value!r:.60}")
     return side
 
 
 @with_synonyms()
-@frozen(field_transformer=with_names, repr=False)
+@frozen(field_transformer=from_table, repr=False)
 class Scene(Hinted):
     """Objects, drawn in their order with one depth buffer, seen by a camera.
 
@@ -69,11 +70,11 @@ class Scene(Hinted):
     camera: Camera = field(default=None, converter=_camera)
     lights: tuple[Light, ...] = field(default=None, converter=lights_of)
     background: Background = field(default=None, converter=background_of)
-    ambient_light: Color = field(default=WHITE, converter=color, metadata=checked("the ambient light"))
-    invert: bool = field(default=False, converter=flag, metadata=checked("invert of a scene"))
-    width: int = field(default=DEFAULT_SIDE, converter=_side, metadata=checked("width"))
-    height: int = field(default=DEFAULT_SIDE, converter=_side, metadata=checked("height"))
-    antialias: bool = field(default=False, converter=flag, metadata=checked("antialias of a scene"))
+    ambient_light: Color = field(default=USUAL, converter=color)
+    invert: bool = field(default=USUAL, converter=flag)
+    width: int = field(default=USUAL, converter=_side)
+    height: int = field(default=USUAL, converter=_side)
+    antialias: bool = field(default=USUAL, converter=flag)
     hemisphere: Hemisphere | None = field(default=None, converter=hemisphere_of)
     rim: Rim | None = field(default=None, converter=rim_of)
     fog: Fog | None = field(default=None, converter=fog_of)

@@ -13,10 +13,8 @@ from ..base.checks import choice, color, flag, integer, number, vector, whole
 from ..base.synonyms import hint, understood
 from ..errors import InputError, KeywordError
 from ._arithmetic import IDENTITY, multiply, rotation_of
-from ._camera import FIELDS_OF_VIEW, Camera
-from ._crease import CREASES
+from ._camera import Camera
 from ._effects import (
-    EXPOSURES,
     NONE,
     Background,
     Fog,
@@ -27,18 +25,20 @@ from ._effects import (
     hemisphere_of,
     rim_of,
 )
+from ._fields import FIELDS, Axis, Shading
 from ._ground import Ground, ground_of
 from ._light import Light, lights_of
-from ._object import COEFFICIENTS, EXPONENTS, OPACITIES, SHADINGS, Material, Shading
+from ._object import Material
 from ._presets import PRESETS, preset_of
-from ._staging import ELEVATIONS, MARGINS, MAX_SIDE, MESH_STAGING
-from ._upright import AXES, Axis, upright
+from ._staging import MAX_SIDE, MESH_STAGING
+from ._upright import upright
 
 #: What a setting is a field of; "camera" also has settings from which a camera is made, "file" those that say what is
 #: read of a glTF file.
 ScenePart = Literal["scene", "camera", "object", "material", "tone", "file"]
 _Plain = Literal["size", "whole", "count", "number", "vector", "rotation", "flag", "color", "choice", "entry"]
 Kind = _Plain | Literal["background", "lights", "hemisphere", "rim", "fog", "ground"]
+_ANY = (-math.inf, math.inf)
 
 
 @frozen
@@ -47,13 +47,14 @@ class Setting:
 
     name: the keyword. part: the class whose field this is, in Python and in scene files; None for what only `load` and
     the command line take. limits, unit: for numbers. default: shown in the help. option: --name, unless it is another.
+    Limits and choices of fields are those of contracts/scene_fields.toml.
     """
 
     name: str
     kind: Kind
     part: ScenePart | None
     text: str
-    limits: tuple[float, float] = (-math.inf, math.inf)
+    limits: tuple[float, float] = _ANY
     unit: str = ""
     default: str = ""
     choices: tuple[str, ...] = ()
@@ -204,30 +205,15 @@ _GROUPS: dict[str, list[Setting]] = {
         Setting(
             "rotate", "rotation", None, "Rotate the scene about x, then y, then z, through its middle.", unit="degrees"
         ),
-        Setting("up_axis", "choice", None, "Up axis of the file, turned upright before `rotate`.", choices=AXES),
+        Setting("up_axis", "choice", None, "Up axis of the file, turned upright before `rotate`."),
         Setting("eye", "vector", "camera", "Position of the camera."),
         Setting("target", "vector", "camera", "Point at which the camera looks."),
         Setting("up", "vector", "camera", "Direction that points up in the picture."),
         Setting("azimuth", "number", "camera", "Angle of the camera to the right of the front.", unit="degrees"),
-        Setting(
-            "elevation",
-            "number",
-            "camera",
-            "Angle of the camera above the horizon.",
-            ELEVATIONS,
-            "degrees",
-        ),
-        Setting("margin", "number", "camera", "Free border, as a fraction of half the picture.", MARGINS),
-        Setting(
-            "fov", "number", "camera", "Vertical field of view of a perspective camera.", FIELDS_OF_VIEW, "degrees"
-        ),
-        Setting(
-            "half_height",
-            "number",
-            "camera",
-            "Half the height of the view, in perspective at distance 1.",
-            (0, math.inf),
-        ),
+        Setting("elevation", "number", "camera", "Angle of the camera above the horizon.", unit="degrees"),
+        Setting("margin", "number", "camera", "Free border, as a fraction of half the picture."),
+        Setting("fov", "number", "camera", "Vertical field of view of a perspective camera.", unit="degrees"),
+        Setting("half_height", "number", "camera", "Half the height of the view, in perspective at distance 1."),
         Setting("near", "number", "camera", "Distance of the near plane; nearer geometry is clipped."),
         Setting(
             "orthographic",
@@ -257,30 +243,23 @@ _GROUPS: dict[str, list[Setting]] = {
         Setting("fog", "fog", "scene", "Fog that begins at one distance from the eye and hides everything at another."),
         Setting("shadow", "flag", None, "Let objects cast shadows from the first light."),
         Setting("ground", "ground", "scene", "Ground under the objects, which receives shadows."),
-        Setting("exposure", "number", "tone", "Multiplier of all light.", EXPOSURES),
+        Setting("exposure", "number", "tone", "Multiplier of all light."),
         Setting("filmic", "flag", "tone", "Compress bright light as film does, instead of clipping it."),
         Setting("gamma", "flag", "tone", "Add light in linear space instead of as sRGB values."),
-        Setting("shading", "choice", "material", "Kind of shading.", choices=SHADINGS),
+        Setting("shading", "choice", "material", "Kind of shading."),
         Setting(
             "crease",
             "number",
             None,
             "Compute normals for smooth shading, with hard edges above this angle.",
-            CREASES,
-            "degrees",
+            unit="degrees",
         ),
         Setting("smooth", "flag", None, "Same as --shading smooth.", option="--smooth"),
         Setting("unlit", "flag", None, "Same as --shading unlit.", option="--unlit"),
-        Setting("ambient", "number", "material", "Strength of ambient light.", COEFFICIENTS),
-        Setting("diffuse", "number", "material", "Strength of diffuse light.", COEFFICIENTS),
-        Setting("specular", "number", "material", "Strength of highlights.", COEFFICIENTS),
-        Setting(
-            "shininess",
-            "whole",
-            "material",
-            "Exponent of highlights; larger values make smaller highlights.",
-            EXPONENTS,
-        ),
+        Setting("ambient", "number", "material", "Strength of ambient light."),
+        Setting("diffuse", "number", "material", "Strength of diffuse light."),
+        Setting("specular", "number", "material", "Strength of highlights."),
+        Setting("shininess", "whole", "material", "Exponent of highlights; larger values make smaller highlights."),
     ],
     "Surface": [
         Setting("emission", "color", "material", "Colour of the light that surfaces emit."),
@@ -294,7 +273,7 @@ _GROUPS: dict[str, list[Setting]] = {
             option="--two-sided/--one-sided",
         ),
         Setting("wireframe", "flag", "object", "Draw edges only.", option="--wireframe/--filled"),
-        Setting("opacity", "number", "object", "Opacity of the objects.", OPACITIES),
+        Setting("opacity", "number", "object", "Opacity of the objects."),
     ],
     "glTF files": [
         Setting("animation", "entry", "file", "Animation that poses the model."),
@@ -302,9 +281,19 @@ _GROUPS: dict[str, list[Setting]] = {
         Setting("use_camera", "entry", "file", "Camera in the file to use, together with the file's lights."),
     ],
 }
+
+
+def _limited(setting: Setting) -> Setting:
+    """Return the setting with the limits, or the words, of the field that it is; keys of objects are no fields."""
+    field = FIELDS.get((setting.part or "object").capitalize(), {}).get(setting.name)
+    if field is None:
+        return setting
+    return evolve(setting, choices=field.choices, limits=(*field.limits, math.inf)[:2] if field.limits else _ANY)
+
+
 #: All settings.
 SETTINGS = tuple(
-    evolve(each, group=group, default=_DEFAULTS.get(each.name, ""))
+    evolve(_limited(each), group=group, default=_DEFAULTS.get(each.name, ""))
     for group, settings in _GROUPS.items()
     for each in settings
 )

@@ -16,7 +16,9 @@ from ..base.values import checked, with_names
 from ..errors import InputError
 from ._arithmetic import cosine, dot, length, sine
 from ._camera import DEFAULT_HALF_HEIGHT, Camera, Projection, half_height_of
+from ._constants import LARGEST
 from ._effects import Background
+from ._fields import FIELDS
 from ._light import WHITE, Light
 from ._mesh import Mesh, face_normals, faces_of_all
 from ._object import Material, Object
@@ -24,19 +26,13 @@ from ._object import Material, Object
 BACKGROUND = Background((46, 54, 72), (136, 146, 162))
 
 #: The most pixels along a side of a picture, and how many it has where none are given.
-MAX_SIDE, DEFAULT_SIDE = 2048, 128
+MAX_SIDE: int = FIELDS["Scene"]["width"].limits[1]
+DEFAULT_SIDE: int = FIELDS["Scene"]["width"].default
 
 #: Toward the light, in the directions right, up and toward the viewer. Contracts are fastest with one white light.
 KEY_LIGHT = (-0.4, 0.7, 0.8)
 
-#: Degrees: where the viewer stands, to the right of the front (+z) and above the horizon.
-AZIMUTH, ELEVATION = 30.0, 20.0
-#: The part of the picture's half width and half height that stays free around a mesh.
-MARGIN = 0.08
-#: The ranges of elevations and margins.
-ELEVATIONS, MARGINS = (-90, 90), (0, 0.9)
-#: Coordinates of objects at most, so that a float holds those of a camera that sees them all.
-LARGEST = 1e305
+_AZIMUTH, _ELEVATION, _MARGIN = (FIELDS["Camera"][name] for name in ("azimuth", "elevation", "margin"))
 
 #: Behind mesh files: light, or dark where most of the surface is light, so that no outline is lost.
 LIGHT_BACKGROUND = Background((120, 130, 148), (196, 202, 212))
@@ -57,11 +53,11 @@ class Viewpoint:
     aspect: width of the picture / its height.
     """
 
-    azimuth: float = field(default=AZIMUTH, converter=number, metadata=checked("the azimuth in degrees"))
+    azimuth: float = field(default=_AZIMUTH.default, converter=number, metadata=checked("the azimuth in degrees"))
     elevation: float = field(
-        default=ELEVATION, converter=number, metadata=checked("the elevation in degrees", *ELEVATIONS)
+        default=_ELEVATION.default, converter=number, metadata=checked("the elevation in degrees", *_ELEVATION.limits)
     )
-    margin: float = field(default=MARGIN, converter=number, metadata=checked("the margin", *MARGINS))
+    margin: float = field(default=_MARGIN.default, converter=number, metadata=checked("the margin", *_MARGIN.limits))
     projection: Projection = "perspective"
     half_height: float = DEFAULT_HALF_HEIGHT
     aspect: float = 1.0
@@ -98,7 +94,7 @@ class Staging:
 PLAIN = Staging(
     side=DEFAULT_SIDE,
     view=Viewpoint(),
-    flat_elevation=ELEVATION,
+    flat_elevation=_ELEVATION.default,
     light=(KEY_LIGHT, WHITE),
     material=Material(),
     by_normals=False,

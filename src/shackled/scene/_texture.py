@@ -8,7 +8,7 @@ import os
 import warnings
 from collections.abc import Callable
 from pathlib import Path
-from typing import IO, Literal
+from typing import IO
 
 import numpy as np
 from attrs import field, frozen
@@ -16,17 +16,18 @@ from numpy.typing import ArrayLike, NDArray
 from PIL import Image
 
 from ..base.checks import choice, fixed, whole
-from ..base.values import Value, checked, with_names
+from ..base.values import Value
 from ..errors import InputError
+from ._fields import FIELDS
+from ._fields import FILTERS as FILTERS
+from ._fields import WRAPS as WRAPS
+from ._fields import Filter as Filter
+from ._fields import Wrap as Wrap
 from ._files.signatures import HEAD, signature_of
-
-Filter = Literal["nearest", "bilinear"]
-FILTERS: tuple[Filter, ...] = ("nearest", "bilinear")
-Wrap = Literal["repeat", "clamp"]
-WRAPS: tuple[Wrap, ...] = ("repeat", "clamp")
+from ._table import USUAL, from_table
 
 #: The most texels along a side.
-MAX_TEXTURE_SIDE = 256
+MAX_TEXTURE_SIDE: int = FIELDS["Texture"]["width"].limits[1]
 #: So many rows of an image are converted at a time.
 _ROWS = 256
 #: The most pixels of an image that is read.
@@ -65,7 +66,7 @@ def _levels(values: ArrayLike, name: str, shape: str) -> NDArray[np.uint8]:
     return fixed(levels, np.uint8)
 
 
-@frozen(field_transformer=with_names, repr=False)
+@frozen(field_transformer=from_table, repr=False)
 class Texture(Value):
     """An image that is multiplied with the colours of a mesh, at the places that `Mesh.uvs` gives.
 
@@ -78,10 +79,10 @@ class Texture(Value):
     """
 
     pixels: NDArray[np.uint8] = field(converter=_pixels)
-    filter: Filter = field(default="bilinear", converter=choice, metadata=checked("the filter of a texture", FILTERS))
-    wrap: Wrap = field(default="repeat", converter=choice, metadata=checked("the wrap of a texture", WRAPS))
+    filter: Filter = field(default=USUAL, converter=choice)
+    wrap: Wrap = field(default=USUAL, converter=choice)
     alpha: NDArray[np.uint8] | None = field(default=None, converter=_alpha)
-    cutoff: int = field(default=0, converter=whole, metadata=checked("the cutoff of a texture", 0, 255))
+    cutoff: int = field(default=USUAL, converter=whole)
 
     def __attrs_post_init__(self) -> None:
         """Check that there is an alpha for each texel."""

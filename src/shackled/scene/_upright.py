@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
-from typing import Literal
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -12,12 +11,12 @@ from numpy.typing import ArrayLike, NDArray
 from ..base.checks import Floats, vector
 from ..errors import InputError, warn
 from ._arithmetic import from_euler, unit
+from ._fields import AXES
+from ._fields import Axis as Axis
 from ._files.content import format_of
 from ._files.model import MeshPart
 from ._mesh import face_normals, faces_of_all
 
-Axis = Literal["x", "y", "z"]
-AXES: tuple[Axis, ...] = ("x", "y", "z")
 _ROTATIONS: dict[Axis, tuple[int, int, int]] = {"x": (0, 0, 90), "y": (0, 0, 0), "z": (-90, 0, 0)}
 
 #: Files that have z up by convention, and those that have one axis or the other.

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from ..base.values import plural
 from ..errors import warn
+from . import _constants as constant
 from ._arithmetic import dot
 from ._mesh import Mesh, components, face_normals, faces_of_all, part_of_faces
 from ._object import Object
@@ -17,14 +18,6 @@ from ._object import Object
 Floats = NDArray[np.float64]
 Ints = NDArray[np.int64]
 Flags = NDArray[np.bool_]
-
-#: An object is divided into its closed parts and the others if there are so many faces of the former at least: what
-#: culling saves, up to half of the gas, is then more than another object costs.
-SPLIT_FACES = 32
-#: Parts whose volume is a smaller share of that of the pyramids of their faces have no inside: doubled sheets.
-_NO_VOLUME = 1e-6
-#: Hollows are looked for in so many parts, the largest ones. Elsewhere their walls are turned, which is not seen.
-_MOST_OUTER = 1000
 
 
 def wound(objects: Sequence[Object], name: str, split: bool) -> list[Object]:
@@ -45,7 +38,7 @@ def wound(objects: Sequence[Object], name: str, split: bool) -> list[Object]:
     made = []
     for each, own in zip(objects, np.split(part, np.cumsum([len(mesh.faces) for mesh in meshes])[:-1]), strict=True):
         closed, mesh = are_closed[own], _turned(each.mesh, are_inverted[own])
-        if split and each.is_opaque and SPLIT_FACES <= closed.sum() < len(closed):
+        if split and each.is_opaque and constant.SPLIT_FACES <= closed.sum() < len(closed):
             halves = [(part_of_faces(mesh, mesh.faces[closed == cull]), cull) for cull in (True, False)]
         else:
             halves = [(mesh, bool(closed.all()))]
@@ -65,9 +58,9 @@ def _parts(points: Floats, corners: Ints) -> tuple[Ints, Flags, Flags]:
     local = points - points[first[part], :1]
     pyramids = dot(local[:, 0], np.cross(local[:, 1], local[:, 2]))
     volume, most = np.bincount(part, pyramids), np.bincount(part, np.abs(pyramids))
-    is_inverted = is_closed & (volume < -_NO_VOLUME * most)
+    is_inverted = is_closed & (volume < -constant.NO_VOLUME * most)
     if is_inverted.any():
-        outer = np.argsort(np.where(is_closed, -volume, 0))[:_MOST_OUTER]
+        outer = np.argsort(np.where(is_closed, -volume, 0))[: constant.MOST_OUTER]
         is_inverted[is_inverted] = ~_are_within(points, part, is_inverted, outer[volume[outer] > 0])
     return part, is_closed, is_inverted
 

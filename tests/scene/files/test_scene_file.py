@@ -172,11 +172,11 @@ SPOT = {"kind": "spot", "position": [0, 0, 0]}
          "objects[0].color must be opaque, not '#fff8'; an Object has an opacity"),
         # keys
         ({"object": []},
-         "unknown key 'object'; known are size, camera, objects, tone, creator, background, invert, antialias, "
-         "lights, ambient_light, hemisphere, rim, fog, ground"),
+         "unknown key 'object'; known are size, objects, camera, lights, background, ambient_light, invert, antialias, "
+         "hemisphere, rim, fog, tone, ground, creator"),
         ({"objects": [thing(), thing(material={"shine": 3})]},
-         "unknown key 'shine' in objects[1].material; known are texture, shading, ambient, diffuse, specular, "
-         "shininess, emission"),
+         "unknown key 'shine' in objects[1].material; known are shading, ambient, diffuse, specular, "
+         "shininess, texture, emission"),
         ({"hemisphere": "white"}, "hemisphere must be a table with keys of sky, ground, not 'white'"),
         # what values are refused together, or by what they become
         ({"rim": {"color": "white", "power": 17}},

@@ -6,31 +6,19 @@ import { InputError } from "../errors.js";
 import { CallError } from "../evm/contracts.js";
 import type { Opened } from "../files/index.js";
 import { loaded, type PageAssets, type PieceEntry } from "./assets.js";
-import { fitted } from "./camera.js";
-import { prepare, type Document } from "./document.js";
-import { History } from "./history.js";
-import type { MeshStore } from "./library.js";
-import { linkOf } from "./link.js";
-import { withPiece } from "./objects.js";
-import { capital } from "./parts.js";
-import { MissingFiles } from "./save.js";
+import { fitted } from "../document/camera.js";
+import { prepare, type Document } from "../document/document.js";
+import { History } from "../document/history.js";
+import type { MeshStore } from "./mesh_store.js";
+import { linkOf } from "../document/link.js";
+import { withPiece } from "../document/objects.js";
+import { capital } from "../document/fields.js";
+import { MissingFiles } from "../document/save.js";
 import { autosave } from "./things.js";
-import { calm } from "./ui/calm.js";
-import { Drawing } from "./ui/drawing.js";
-import { Cancelled, type Drawn, type Work } from "./work/work.js";
-
-/** The picture that is seen, and the document of which it is the picture. */
-export interface Shown {
-    drawn: Drawn;
-    doc: Document;
-}
-
-/** Something that takes long. part: 0..1, where it is known. */
-export interface Busy {
-    what: string;
-    part?: number;
-    cancel?: () => void;
-}
+import { calm } from "./calm.js";
+import { Drawing, type Shown } from "./drawing.js";
+import { doing, note, open, show, type Busy, type DialogName } from "./state.js";
+import { Cancelled, type Work } from "./work/work.js";
 
 /** A line that is shown for some seconds. */
 export interface Toast {
@@ -38,13 +26,6 @@ export interface Toast {
     text: string;
     kind: "note" | "error";
 }
-
-/** A dialog: its name, and the component that shows it. */
-export interface OpenDialog {
-    name: DialogName;
-    Dialog: ComponentType<{ app: App }>;
-}
-export type DialogName = "download" | "limits" | "keys" | "things" | "about" | "mint" | "edition" | "reveal";
 
 /** Milliseconds after the last change until it is kept. */
 const KEEP = 400;
@@ -60,10 +41,9 @@ export class App {
     readonly selected: Signal<ReadonlySet<string>> = signal(new Set<string>());
     /** The last finished picture at full size; null before the first. */
     readonly shown: Signal<Shown | null> = signal(null);
-    readonly busy: Signal<Busy | null> = signal(null);
-    readonly #dialog = signal<OpenDialog | null>(null);
+    readonly busy = computed(() => doing.value.busy);
     /** The dialog that is open: see `openDialog`. */
-    readonly dialog: ReadonlySignal<OpenDialog | null> = this.#dialog;
+    readonly dialog = computed(() => open.value.dialog);
     readonly toasts: Signal<readonly Toast[]> = signal([]);
     /** The link of the document, without the address of the page: "#1…"; null while it is not known. */
     readonly link: Signal<string | null> = signal(null);
@@ -82,14 +62,14 @@ export class App {
     /** Ends the opening of files or a piece when others are opened: the last are shown. */
     #opening = new AbortController();
     #toast = 0;
-    readonly #dialogs: Partial<Record<DialogName, OpenDialog["Dialog"] | undefined>> = {};
-    /** The dialog that was asked for last. */
-    #asked: DialogName | null = null;
+    readonly #dialogs: Partial<Record<DialogName, ComponentType | undefined>> = {};
 
     constructor(
         readonly assets: PageAssets,
         readonly meshes: MeshStore,
         readonly work: Work,
+        /** Loads a dialog. */
+        private readonly dialogOf: (name: DialogName, app: App) => Promise<ComponentType>,
         first: Document,
         own = first,
     ) {
@@ -220,14 +200,18 @@ export class App {
 
     /** Open a dialog in place of another. It is open once its code is there. */
     async openDialog(name: DialogName): Promise<void> {
-        this.#asked = name;
-        const load = async () => (await loaded(import("./dialogs/index.js"))).dialogOf(name);
-        const Dialog = (this.#dialogs[name] ??= await this.run("Opening", load));
-        if (Dialog && this.#asked === name) this.#dialog.value = { name, Dialog };
+        show({ asked: name });
+        const Dialog = (this.#dialogs[name] ??= await this.run("Opening", () => this.dialogOf(name, this)));
+        if (Dialog && open.peek().asked === name) show({ dialog: { name, Dialog } });
     }
 
     closeDialog(): void {
-        this.#asked = this.#dialog.value = null;
+        show({ asked: null, dialog: null });
+    }
+
+    /** The address that restores the picture; "" while it is not known. */
+    get address(): string {
+        return this.link.value === null ? "" : `${location.href.split("#")[0]}${this.link.value}`;
     }
 
     // ---- what is kept ----
@@ -266,10 +250,10 @@ export class App {
         abort = new AbortController(),
     ): Promise<T | undefined> {
         let mine: Busy = { what, cancel: () => abort.abort() };
-        this.busy.value = mine;
+        note({ busy: mine });
         const progress = (part: number): void => {
             if (this.busy.peek() !== mine) return;
-            this.busy.value = mine = { ...mine, part };
+            note({ busy: (mine = { ...mine, part }) });
         };
         try {
             return await work(abort.signal, progress);
@@ -277,7 +261,7 @@ export class App {
             if (!abort.signal.aborted) this.fail(error);
             return undefined;
         } finally {
-            if (this.busy.peek() === mine) this.busy.value = null;
+            if (this.busy.peek() === mine) note({ busy: null });
         }
     }
 

@@ -2,8 +2,8 @@
 
 import { InputError } from "../errors.js";
 import { fetchBytes } from "../evm/assets.js";
-import { inflate, isGzip } from "../evm/bytes.js";
-import { unpackPiece } from "./packed.js";
+import { inflate, isGzip } from "../bytes.js";
+import { unpackPiece } from "../document/packed.js";
 
 const MAX_ASSET = 1 << 26;
 

@@ -1,15 +1,16 @@
 // The controls of the page, as a table: each reads one value of a document, and writes it. Those of settings of the Python
 // package come from its table: a new setting that is a number, a switch, a colour or a choice has a control at once.
 
-import { LIGHT_KINDS, MAX_LIGHTS, MAX_SIDE } from "../scene/checked.js";
-import { PROJECTIONS } from "../scene/staging.js";
-import { resetCamera } from "./camera.js";
-import type { Document, Meshes } from "./document.js";
-import { around, changed, chosen, clamped, tidy, type Selection } from "./measure.js";
-import { PARTS, camel, capital, settingsOf, type Part, type Scope, type Value } from "./parts.js";
-import { SETTINGS, type Setting } from "./settings.js";
+import { MAX_SIDE } from "../scene/checked.js";
+import { MAX_LIGHTS } from "../scene/constants.js";
+import { LIGHT_KINDS, PROJECTIONS } from "../scene/fields.js";
+import { resetCamera } from "../document/camera.js";
+import type { Document, Meshes } from "../document/document.js";
+import { around, changed, chosen, clamped, tidy, type Selection } from "../document/measure.js";
+import { PARTS, camel, capital, settingsOf, type Part, type Scope, type Value } from "../document/fields.js";
+import { SETTINGS, type Setting } from "../document/settings.js";
 
-export { MIXED, type Value } from "./parts.js";
+export { MIXED, type Value } from "../document/fields.js";
 
 /** One value of a document. Lengths are in radii of its frame. */
 export interface Control extends Readonly<Required<Traits>> {

@@ -2,16 +2,16 @@
 
 import { render } from "preact";
 import { App } from "./app.js";
+import { open, type DialogName } from "./state.js";
 import { PageAssets, loaded } from "./assets.js";
-import { turned } from "./camera.js";
-import type { Document } from "./document.js";
-import { MeshStore } from "./library.js";
-import { documentOfLink } from "./link.js";
+import { turned } from "../document/camera.js";
+import type { Document } from "../document/document.js";
+import { MeshStore } from "./mesh_store.js";
+import { documentOfLink } from "../document/link.js";
 import { autosaved } from "./things.js";
 import { restoreTheme } from "./ui/header.js";
 import { listenToKeys } from "./ui/keys.js";
 import { Page } from "./ui/page.js";
-import { begun } from "./ui/state.js";
 import { showToasts } from "./ui/toasts.js";
 import { Work } from "./work/work.js";
 import "./ui/style.css";
@@ -50,11 +50,12 @@ async function start(): Promise<void> {
         }
     };
     const found =
-        (await attempt(() => fromLink(oldLink() ?? location.hash, meshes))) ??
+        (await attempt(() => fromLink(location.hash, meshes))) ??
         (await attempt(() => fromInput(meshes, assets))) ??
         (await attempt(() => fromBefore(meshes))) ??
         (await first(meshes));
-    const app = new App(assets, meshes, work, found.doc, found.own);
+    const dialogOf = async (name: DialogName, app: App) => (await loaded(import("./dialogs.js"))).dialogOf(name, app);
+    const app = new App(assets, meshes, work, dialogOf, found.doc, found.own);
     listenToKeys(app);
     // for consoles, and tests
     Object.assign(globalThis, { shackledApp: app });
@@ -65,16 +66,6 @@ async function start(): Promise<void> {
     addEventListener("hashchange", ({ newURL }) => void openLink(app, new URL(newURL).hash));
     void assets.pieces().then((pieces) => (app.pieces.value = pieces));
     if (found.isFirst) turnIntoView(app);
-}
-
-/** Take a link of the Creator before this one, which was a query, out of the address. */
-function oldLink(): string | null {
-    const query = new URLSearchParams(location.search);
-    const state = query.get("p");
-    if (!state) return null;
-    query.delete("p");
-    history.replaceState(null, "", location.pathname + (query.size ? `?${query}` : "") + `#${state}`);
-    return `#${state}`;
 }
 
 /** The link in the address, if there is one. */
@@ -138,7 +129,8 @@ function turnIntoView(app: App): void {
     const end = app.doc.peek();
     if (matchMedia("(prefers-reduced-motion: reduce)").matches) return;
     const at = performance.now();
-    const isOver = (): boolean => begun.peek() || (app.drawing.seen.peek()?.drawn.milliseconds ?? 0) > ENTRANCE.draft;
+    const isOver = (): boolean =>
+        open.peek().begun || (app.drawing.seen.peek()?.drawn.milliseconds ?? 0) > ENTRANCE.draft;
     let now = end;
     const step = (time: number): void => {
         if (app.doc.peek() !== now) return;

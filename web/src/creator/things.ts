@@ -1,7 +1,7 @@
 // What stays in the browser, in its database: my things, the document at which one was last, and the meshes of opened files.
 
 import { InputError } from "../errors.js";
-import type { Document, StoredMesh } from "./document.js";
+import type { Document, StoredMesh } from "../document/document.js";
 
 /** A document that was kept. changed: when, in milliseconds. */
 export interface Thing {

@@ -1,7 +1,7 @@
 // Where evm.wasm, contracts.json and stages.json come from.
 
 import { InputError } from "../errors.js";
-import { inflate, isGzip, readStream, unpack } from "./bytes.js";
+import { inflate, isGzip, readStream, unpack } from "../bytes.js";
 import { checkedContracts, type Contracts } from "./contracts.js";
 import { compile } from "./evm.js";
 import { checkedStages, type Stages } from "./stages.js";

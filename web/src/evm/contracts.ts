@@ -1,8 +1,9 @@
 // The contracts that draw: their code and addresses, and what their errors mean. tools/build_web.py writes contracts.json.
 
 import { InputError } from "../errors.js";
-import { fromHex, toHex, wordAt } from "./bytes.js";
+import { fromHex, toHex, wordAt } from "../bytes.js";
 import { Evm, GAS_LIMIT, type Answer } from "./evm.js";
+import { RENDERER, type ContractName } from "./names.js";
 import { gasByStage, placesOf, type StageGas, type Stages } from "./stages.js";
 
 /** The content of contracts.json. */
@@ -12,18 +13,6 @@ export interface Contracts {
     /** Name and parameters (name, type) of errors, by selector. */
     errors: Record<string, [string, [string, string][]]>;
 }
-
-export const RENDERER = [
-    "Engine",
-    "FragmentEngine",
-    "AntialiasedEngine",
-    "AntialiasedFragmentEngine",
-    "AntialiasedSmoothEngine",
-    "EffectsEngine",
-    "Effects",
-    "Renderer",
-] as const;
-export type ContractName = (typeof RENDERER)[number] | "Studio";
 
 /** A call that a contract refused, or that did not end. The message is one line. */
 export class CallError extends Error {
@@ -69,6 +58,11 @@ export class ContractEvm {
     /** Call a contract as `call` does, with a value in wei, and keep what the call changes. */
     send(address: Uint8Array, data: Uint8Array, gas = GAS_LIMIT, value = 0n): Answer {
         return this.#checked(this.#evm.send(address, data, gas, value), gas);
+    }
+
+    /** Compile the contracts that used at least so much gas so far, as `Evm.compile`. */
+    compile(least: number): Promise<void> {
+        return this.#evm.compile(least);
     }
 
     /** Return the gas of a call of the Renderer by stage. CallError where it fails, InputError for stages of other contracts. */

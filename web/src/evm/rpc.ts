@@ -1,8 +1,9 @@
 // Nodes, asked over JSON-RPC: by whom the same picture can be computed, and where scenes are stored.
 
 import { InputError } from "../errors.js";
-import { bytesAt, fromHex, readStream, toHex } from "./bytes.js";
-import { CallError, RENDERER, describeRevert, type ContractEvm, type Contracts } from "./contracts.js";
+import { bytesAt, fromHex, readStream, toHex } from "../bytes.js";
+import { CallError, describeRevert, type ContractEvm, type Contracts } from "./contracts.js";
+import { RENDERER } from "./names.js";
 import { FUNCTIONS } from "../scene/encode.js";
 
 /** A node that could not be asked, or did not answer as nodes do. The message is one line. */

@@ -1,7 +1,7 @@
 // The stages of a picture, and which instructions of the contracts belong to each. tools/build_web.py writes stages.json.
 
 import { InputError } from "../errors.js";
-import type { ContractName } from "./contracts.js";
+import type { ContractName } from "./names.js";
 
 /** The content of stages.json. */
 export interface Stages {

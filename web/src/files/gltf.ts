@@ -5,9 +5,9 @@ import { GLTFLoader, type GLTFParser } from "three/examples/jsm/loaders/GLTFLoad
 import { MeshoptDecoder } from "meshoptimizer/decoder";
 import { InputError, show } from "../errors.js";
 import { dracoLoader } from "./draco.js";
-import { hides, imageOf, type Image, type Picture } from "./images.js";
+import { hides, imageOf, type Picture } from "./images.js";
 import { GREY, toLinear, toSrgb, type Surface, type Triangles } from "./parts.js";
-import { baseOf, fileBeside, plural, textOf, type Source } from "./source.js";
+import { baseOf, fileBeside, plural, textOf, type Image, type Source } from "./source.js";
 import { checkAmount, trianglesOf, type Shown } from "./three.js";
 
 /** What JSON holds. */

@@ -2,23 +2,7 @@
 
 import { InputError } from "../errors.js";
 import type { Texture } from "../scene/checked.js";
-import { baseOf, fileBeside, type Source } from "./source.js";
-
-/**
- * Rows from the top; red, green, blue and alpha of each pixel. given: the size in the file, where it was reduced. The rest is
- * kept for all surfaces that show it: what `hides` returned, whether it has one colour, how many pixels `isPlain` has looked
- * at, and smaller images of it.
- */
-export interface Image {
-    width: number;
-    height: number;
-    pixels: Uint8Array;
-    given?: string;
-    hides?: boolean;
-    isOne?: boolean;
-    steps?: number;
-    smaller?: Map<string, Image>;
-}
+import { baseOf, fileBeside, type Image, type Source } from "./source.js";
 
 /** An image as a file names it. name: for notes. hasAlpha: whether its alpha counts. cutoff: as in Texture. */
 export interface Picture {

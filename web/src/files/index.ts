@@ -1,67 +1,38 @@
 // The page's side of reading files: a worker reads, which is ended to cancel.
 
 import script from "worker:files/worker.ts";
-import type { MeshRef, StoredMesh } from "../creator/document.js";
+import { refOf, type Meshes } from "../document/document.js";
 import { InputError } from "../errors.js";
+import { Pool, started, type WorkerLike } from "../workers/pool.js";
+import { DRACO, type Requests } from "./protocol.js";
 import type { Given, Opened, Options } from "./read.js";
 
 export type { Given, Opened, Options } from "./read.js";
 
-/** What the worker is told: what to read, or an answer. */
-export type Order =
-    | { files: readonly Given[]; size: number; maxTriangles: Options["maxTriangles"] }
-    | { id: number; answer?: unknown; error?: string };
-
-/** What the worker tells: what it does, how it ended, or a question: for pieces, or for the decoder of Draco's meshes. */
-export type Report =
-    | { progress: string }
-    | { opened: Opened }
-    | { error: string; isInput: boolean }
-    | { id: number; refs: readonly MeshRef[] | null };
-
 /** Return the document of files. InputError, a sentence, if nothing of them can be shown. */
 export async function readFiles(files: readonly Given[], options: Options): Promise<Opened> {
     const { size, maxTriangles, library, draco, signal, onProgress } = options;
-    const answer = async (refs: readonly MeshRef[] | null): Promise<Uint8Array | StoredMesh[]> => {
-        if (refs === null && draco) return draco();
-        if (!refs || !library)
-            throw new InputError(refs ? "pieces of datasets are not here" : "the decoder of Draco is not here");
-        await library.load(refs);
-        return refs.map((ref) => library.get(ref));
+    const supply = async (key: string): Promise<[string, unknown]> => {
+        if (key !== DRACO) return [key, (library as Meshes).get(refOf(key))];
+        if (!draco) throw new InputError("the decoder of Draco is not here");
+        return [key, await draco()];
     };
-    const frame = await closedFrame();
-    const { Blob, URL, Worker } = frame.contentWindow as Window & typeof globalThis;
-    const url = URL.createObjectURL(new Blob([script], { type: "text/javascript" }));
-    const worker = new Worker(url);
-    const tell = (order: Order): void => worker.postMessage(order);
+    const supplies = async (_: unknown, __: unknown, lacks: readonly string[]): Promise<Map<string, unknown>> => {
+        const refs = lacks.filter((key) => key !== DRACO).map(refOf);
+        if (refs.length && !library) throw new InputError("pieces of datasets are not here");
+        await library?.load(refs);
+        return new Map(await Promise.all(lacks.map(supply)));
+    };
+    const pool = new Pool<Requests, "read">({ start: inClosedFrame, supplies }, { read: 1 });
     try {
-        signal?.throwIfAborted();
-        return await new Promise((resolve, reject) => {
-            signal?.addEventListener("abort", () => reject(signal.reason), { once: true });
-            worker.onerror = ({ message }) => reject(new Error(message));
-            worker.onmessage = ({ data }: MessageEvent<Report>) => {
-                if ("progress" in data) onProgress?.(data.progress);
-                else if ("opened" in data) resolve(data.opened);
-                else if ("error" in data) reject(data.isInput ? new InputError(data.error) : new Error(data.error));
-                else {
-                    const { id, refs } = data;
-                    answer(refs).then(
-                        (answer) => tell({ id, answer }),
-                        (error: Error) => tell({ id, error: error.message }),
-                    );
-                }
-            };
-            tell({ files, size, maxTriangles });
-        });
+        return await pool.ask("read", { files, size, maxTriangles }, "read", { signal, onProgress });
     } finally {
-        worker.terminate();
-        URL.revokeObjectURL(url);
-        frame.remove();
+        pool.stop();
     }
 }
 
-/** Return a frame whose workers reach no address: they have its policy besides that of the page, which allows nodes. */
-async function closedFrame(): Promise<HTMLIFrameElement> {
+/** Start the worker in a frame whose workers reach no address: they have its policy besides that of the page, which allows nodes. */
+async function inClosedFrame(): Promise<WorkerLike> {
     const policy = "connect-src data: blob:";
     const srcdoc = `<meta http-equiv="Content-Security-Policy" content="${policy}">`;
     const frame = Object.assign(document.createElement("iframe"), { hidden: true, srcdoc });
@@ -69,5 +40,11 @@ async function closedFrame(): Promise<HTMLIFrameElement> {
         frame.onload = resolve;
         document.body.append(frame);
     });
-    return frame;
+    const worker = started(script, frame.contentWindow as Window & typeof globalThis);
+    const terminate = worker.terminate.bind(worker);
+    worker.terminate = () => {
+        terminate();
+        frame.remove();
+    };
+    return worker;
 }

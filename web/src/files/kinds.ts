@@ -2,7 +2,7 @@
 
 import tables from "toml:scene/_files/signatures.toml";
 import { InputError } from "../errors.js";
-import { inflate, isGzip } from "../evm/bytes.js";
+import { inflate, isGzip } from "../bytes.js";
 import { extensionOf, unmarked, type Given, type Source } from "./source.js";
 
 /** What a file is: the table explains the keys. */

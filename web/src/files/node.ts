@@ -3,7 +3,7 @@
 import { convertIndexedToRgb, decode } from "fast-png";
 import jpeg from "jpeg-js";
 import { InputError } from "../errors.js";
-import type { Image } from "./images.js";
+import type { Image } from "./source.js";
 
 /** Of JPEG files and of PNG files with 16 bits a channel, which take most of the memory, so many million pixels are read. */
 const MOST_MILLIONS = 45;

@@ -1,10 +1,10 @@
 // Files that people open: mesh files, scene files, pictures with their scene, calls, and ZIP files of them.
 
 import { InputError } from "../errors.js";
-import { documentOfScene, type Library, type Made } from "../creator/save.js";
+import { documentOfScene, type Library, type Made } from "../document/save.js";
 import { decodeCall } from "../scene/decode.js";
 import type { Scene } from "../scene/types.js";
-import { readFile } from "../view/source.js";
+import { readFile } from "../scene/call_file.js";
 import { Images } from "./images.js";
 import { contentOf, formatOf, gunzipped, namedFormat } from "./kinds.js";
 import { readOff } from "./off.js";

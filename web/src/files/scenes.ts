@@ -1,12 +1,13 @@
 // Scene files with the mesh files and images that they name.
 
 import { parse } from "smol-toml";
-import type { MeshRef, StoredMesh } from "../creator/document.js";
-import { digestOf, openSceneFile, storedMesh, textureTable, type Library, type Made } from "../creator/save.js";
+import type { MeshRef, StoredMesh } from "../document/document.js";
+import { digestOf, openSceneFile, storedMesh, textureTable, type Library, type Made } from "../document/save.js";
 import { InputError, show } from "../errors.js";
 import { checkedMesh, type Mesh, type Texture } from "../scene/checked.js";
 import { parseJson } from "../scene/file.js";
 import { shadedMesh } from "../scene/normals.js";
+import { COLOR_KEYS } from "../scene/plain.js";
 import { hides, imageOf, textureOf } from "./images.js";
 import { formatOf } from "./kinds.js";
 import type { Part } from "./parts.js";
@@ -14,8 +15,6 @@ import { baseOf, fileBeside, plural, textOf, titleOf, type Given, type Source } 
 
 type Keys = Record<string, unknown>;
 
-/** Names of keys whose lists are colours. */
-const COLORS = /^(color|background|top|bottom|ambient_light|sky|ground|emission)$/;
 /** What turns an axis up to y: signs and numbers, from 1, of the old columns. */
 const TURNS: Record<string, number[]> = { x: [-2, 1, 3], y: [1, 2, 3], z: [1, 3, -2] };
 
@@ -93,7 +92,7 @@ function plain(value: unknown, key = ""): unknown {
     if (typeof value === "bigint") return Number(value);
     if (Array.isArray(value)) {
         const isFraction = (level: unknown): boolean => typeof level === "number" && level >= 0 && level <= 1;
-        const areFractions = COLORS.test(key) && value.every(isFraction);
+        const areFractions = COLOR_KEYS.has(key) && value.every(isFraction);
         return value.map((each: unknown) => (areFractions ? Math.round(255 * (each as number)) : plain(each)));
     }
     if (typeof value !== "object" || value === null || value instanceof Date) return value;

@@ -1,7 +1,6 @@
 // What readers get: a file, the files beside it, and where notes go.
 
 import { InputError } from "../errors.js";
-import type { Images } from "./images.js";
 
 /** A file by its name, which may have folders in it. used: whether another one names it. */
 export interface Given {
@@ -10,13 +9,29 @@ export interface Given {
     used?: boolean;
 }
 
+/**
+ * An image: rows from the top; red, green, blue and alpha of each pixel. given: the size in the file, where it was reduced. The rest is
+ * kept for all surfaces that show it: what `hides` returned, whether it has one colour, how many pixels `isPlain` has looked
+ * at, and smaller images of it.
+ */
+export interface Image {
+    width: number;
+    height: number;
+    pixels: Uint8Array;
+    given?: string;
+    hides?: boolean;
+    isOne?: boolean;
+    steps?: number;
+    smaller?: Map<string, Image>;
+}
+
 /** A file that is read, and those that were given with it. tell: takes a note, a sentence without the name of the file. */
 export interface Source extends Given {
     folder: readonly Given[];
     /** Returns a file beside these. */
     beside: ((name: string) => Given | undefined) | undefined;
     tell: (note: string) => void;
-    images: Images;
+    images: { get(bytes: Uint8Array): Promise<Image> };
     /** Return the decoder of Draco's meshes. */
     draco: () => Promise<Uint8Array>;
 }

@@ -1,6 +1,6 @@
 // Scenes of mesh files: as a product is photographed. src/shackled/scene/_staging.py, _look.py and _canvas.py say why.
 
-import { boundsOfPoints } from "../creator/measure.js";
+import { boundsOfPoints } from "../document/measure.js";
 import { InputError } from "../errors.js";
 import { boundsOf, cross, dot, fromEuler, length, rowOf, subtract, times } from "../scene/arithmetic.js";
 import type { Quaternion, Vector } from "../scene/arithmetic.js";

@@ -1,42 +1,22 @@
 // The worker that reads files.
 
-import type { MeshRef, StoredMesh } from "../creator/document.js";
-import { InputError } from "../errors.js";
-import type { Order, Report } from "./index.js";
+import { keyOf, type MeshRef, type StoredMesh } from "../document/document.js";
+import { serve } from "../workers/serve.js";
+import { DRACO, type Requests } from "./protocol.js";
 import { readFiles } from "./read.js";
 
-const waiting = new Map<number, (order: { answer?: unknown; error?: string }) => void>();
-const pieces = new Map<string, StoredMesh>();
+const kept = new Map<string, unknown>();
 
-function tell(report: Report): void {
-    postMessage(report);
-}
-
-/** Ask the page for pieces, or, for null, for the decoder of Draco's meshes. */
-function ask<T>(refs: readonly MeshRef[] | null): Promise<T> {
-    const id = waiting.size;
-    return new Promise((resolve, reject) => {
-        waiting.set(id, ({ answer, error }) =>
-            error === undefined ? resolve(answer as T) : reject(new InputError(error)),
-        );
-        tell({ id, refs });
-    });
-}
-
-const library = {
-    load: async (refs: readonly MeshRef[]): Promise<void> => {
-        const found = await ask<StoredMesh[]>(refs);
-        refs.forEach((ref, at) => pieces.set(JSON.stringify(ref), found[at]));
+serve<Requests>(
+    {
+        read({ files, ...options }, { need, onProgress }) {
+            const library = {
+                load: async (refs: readonly MeshRef[]): Promise<void> => void (await need(refs.map(keyOf))),
+                get: (ref: MeshRef): StoredMesh => kept.get(keyOf(ref)) as StoredMesh,
+            };
+            const draco = async (): Promise<Uint8Array> => (await need([DRACO]))[0] as Uint8Array;
+            return readFiles(files, { ...options, library, onProgress, draco });
+        },
     },
-    get: (ref: MeshRef): StoredMesh => pieces.get(JSON.stringify(ref)) as StoredMesh,
-};
-
-onmessage = ({ data }: MessageEvent<Order>) => {
-    if ("id" in data) return waiting.get(data.id)?.(data);
-    const { files, ...options } = data;
-    const onProgress = (progress: string): void => tell({ progress });
-    readFiles(files, { ...options, library, onProgress, draco: () => ask<Uint8Array>(null) }).then(
-        (opened) => tell({ opened }),
-        (error: Error) => tell({ error: error.message, isInput: error instanceof InputError }),
-    );
-};
+    (key, value) => kept.set(key, value),
+);

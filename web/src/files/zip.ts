@@ -1,6 +1,6 @@
 // The files in a ZIP file, of which no more is inflated than its directory says.
 
-import { inflate } from "../evm/bytes.js";
+import { inflate } from "../bytes.js";
 import type { Given } from "./source.js";
 
 /** What begins an entry of the directory of a ZIP file, and the end of the directory; bytes of the latter. */

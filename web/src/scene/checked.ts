@@ -4,69 +4,20 @@ import { InputError, show } from "../errors.js";
 import { boundsOf, fromEuler, rint, times, unit, type Quaternion, type Vector } from "./arithmetic.js";
 import * as check from "./checks.js";
 import type { Rgb } from "./checks.js";
+import { LARGEST, MAX_LIGHTS } from "./constants.js";
+import { FIELDS, LIGHT_KINDS, type Plain } from "./fields.js";
 import { checkedOnce, remembered } from "./memory.js";
-import { PROJECTIONS, VIEW, frame, keyLight } from "./staging.js";
+import { namesOf, plain } from "./plain.js";
+import { VIEW, frame, keyLight } from "./staging.js";
 import type * as given from "./types.js";
 
-export const MAX_SIDE = 2048;
-export const MAX_LIGHTS = 4;
-/** Width and height of a picture where none are given. */
-export const DEFAULT_SIDE = 128;
-/** Objects of staged scenes lie within. */
-const LARGEST = 1e305;
+export const MAX_SIDE = FIELDS.Scene.width.limits[1];
 
-export const WHITE: Rgb = [255, 255, 255];
 export const STAGED_BACKGROUND = { top: [46, 54, 72], bottom: [136, 146, 162] } as const;
 const DEFAULT_COLOR: Rgb = [200, 200, 200];
-export const SHADINGS = ["unlit", "flat", "smooth"] as const;
-export const LIGHT_KINDS = ["directional", "point", "spot"] as const;
 
-export const SCENE = [
-    "objects",
-    "camera",
-    "lights",
-    "background",
-    "ambientLight",
-    "invert",
-    "antialias",
-    "hemisphere",
-    "rim",
-    "fog",
-    "tone",
-    "ground",
-    "width",
-    "height",
-] as const;
-const CAMERA = ["eye", "target", "up", "projection", "halfHeight", "near"] as const;
-const BACKGROUND = ["top", "bottom"] as const;
-const HEMISPHERE = ["sky", "ground"] as const;
-const RIM = ["color", "power"] as const;
-const FOG = ["color", "near", "far"] as const;
-const TONE = ["exposure", "filmic", "gamma"] as const;
-const GROUND = ["color", "height", "radius", "center", "inner"] as const;
-const LIGHTS = {
-    directional: ["kind", "direction", "color", "shadow"],
-    point: ["kind", "position", "color", "shadow"],
-    spot: ["kind", "position", "direction", "color", "innerAngle", "outerAngle", "shadow"],
-} as const;
-export const OBJECT = [
-    "mesh",
-    "position",
-    "rotation",
-    "scale",
-    "material",
-    "cull",
-    "wireframe",
-    "twoSided",
-    "opacity",
-    "fade",
-] as const;
-export const MATERIAL = ["shading", "ambient", "diffuse", "specular", "shininess", "texture", "emission"] as const;
-export const MESH = ["positions", "faces", "colors", "normals", "uvs", "opacities"] as const;
-export const TEXTURE = ["width", "height", "pixels", "filter", "wrap", "alpha", "cutoff"] as const;
-export const FILTERS = ["nearest", "bilinear"] as const;
-export const WRAPS = ["repeat", "clamp"] as const;
-const MAX_TEXTURE_SIDE = 256;
+/** The plain fields of a class. */
+type Own<Name extends keyof Plain> = Plain[Name];
 
 /**
  * Positions and normals have three numbers for each vertex, colours three bytes, uvs two numbers, opacities a multiple of
@@ -82,46 +33,19 @@ export interface Mesh {
 }
 
 /** `pixels` has three bytes for each texel, `alpha` one. */
-export interface Texture {
-    width: number;
-    height: number;
+export interface Texture extends Own<"Texture"> {
     pixels: Uint8Array;
-    filter: (typeof FILTERS)[number];
-    wrap: (typeof WRAPS)[number];
     alpha: Uint8Array | undefined;
-    cutoff: number;
 }
 
-export interface Material {
-    shading: given.Shading;
-    ambient: number;
-    diffuse: number;
-    specular: number;
-    shininess: number;
+export interface Material extends Own<"Material"> {
     texture: Texture | undefined;
-    emission: Rgb;
 }
 
-export interface SceneObject {
+export interface SceneObject extends Own<"SceneObject"> {
     mesh: Mesh;
-    position: Vector;
     rotation: Quaternion;
-    scale: number;
     material: Material;
-    cull: boolean;
-    wireframe: boolean;
-    twoSided: boolean;
-    opacity: number;
-    fade: readonly [number, number] | undefined;
-}
-
-export interface Camera {
-    eye: Vector;
-    target: Vector;
-    up: Vector;
-    projection: given.Projection;
-    halfHeight: number;
-    near: number | undefined;
 }
 
 /** `vector` is the direction toward a directional light, the position of any other; `cone` that of a spot light. */
@@ -133,63 +57,30 @@ export interface Light {
     shadow: boolean;
 }
 
-export interface Hemisphere {
-    sky: Rgb;
-    ground: Rgb;
-}
+export type Camera = Plain["Camera"];
+export type Fog = Plain["Fog"];
+export type Ground = Plain["Ground"];
 
-export interface Rim {
-    color: Rgb;
-    power: number;
-}
-
-export interface Fog {
-    color: Rgb;
-    near: number;
-    far: number;
-}
-
-export interface Tone {
-    exposure: number;
-    filmic: boolean;
-    gamma: boolean;
-}
-
-export interface Ground {
-    color: Rgb;
-    height: number | undefined;
-    radius: number | undefined;
-    center: readonly [number, number] | undefined;
-    inner: number | undefined;
-}
-
-export interface Scene {
+export interface Scene extends Own<"Scene"> {
     objects: SceneObject[];
     camera: Camera;
     lights: Light[];
     background: { top: Rgb; bottom: Rgb };
-    ambientLight: Rgb;
-    invert: boolean;
-    antialias: boolean;
-    hemisphere: Hemisphere | undefined;
-    rim: Rim | undefined;
+    hemisphere: Plain["Hemisphere"] | undefined;
+    rim: Plain["Rim"] | undefined;
     fog: Fog | undefined;
-    tone: Tone | undefined;
+    tone: Plain["Tone"] | undefined;
     ground: Ground | undefined;
-    width: number;
-    height: number;
 }
 
 /** Return the scene with all its values. InputError for one that is wrong, with its place. */
 export function checkedScene(scene: given.Scene): Scene {
-    check.fields(scene, "the scene", SCENE);
-    const width = check.whole(scene.width ?? DEFAULT_SIDE, "width", 1, MAX_SIDE);
-    const height = check.whole(scene.height ?? DEFAULT_SIDE, "height", 1, MAX_SIDE);
+    const own = plain("Scene", scene, "");
     if (!Array.isArray(scene.objects)) throw new InputError(`objects must be a list, not ${show(scene.objects)}`);
     const objects = scene.objects.map((each: given.SceneObject, index) => checkedObject(each, `objects[${index}]`));
     let { camera, lights, background } = scene;
     if (objects.length && camera === undefined && lights === undefined && background === undefined) {
-        camera = stagedCamera(worldPositions(objects), width / height);
+        camera = stagedCamera(worldPositions(objects), own.width / own.height);
         lights = [keyLight(VIEW)];
         background = STAGED_BACKGROUND;
     }
@@ -198,45 +89,28 @@ export function checkedScene(scene: given.Scene): Scene {
         camera: checkedCamera(camera ?? {}),
         lights: checkedLights(lights ?? []),
         background: checkedBackground(background ?? {}),
-        ambientLight: check.color(scene.ambientLight ?? WHITE, "ambientLight"),
-        invert: check.flag(scene.invert ?? false, "invert"),
-        antialias: check.flag(scene.antialias ?? false, "antialias"),
-        hemisphere: scene.hemisphere && checkedHemisphere(scene.hemisphere),
-        rim: scene.rim && checkedRim(scene.rim),
-        fog: scene.fog && checkedFog(scene.fog),
-        tone: scene.tone && checkedTone(scene.tone),
-        ground: scene.ground && checkedGround(scene.ground),
-        width,
-        height,
+        ...own,
+        hemisphere: scene.hemisphere && EFFECTS.hemisphere.check(scene.hemisphere),
+        rim: scene.rim && EFFECTS.rim.check(scene.rim),
+        fog: scene.fog && EFFECTS.fog.check(scene.fog),
+        tone: scene.tone && EFFECTS.tone.check(scene.tone),
+        ground: scene.ground && EFFECTS.ground.check(scene.ground),
     };
 }
 
 export function checkedObject(object: given.SceneObject, where: string): SceneObject {
-    check.fields(object, where, OBJECT);
+    const own = plain("SceneObject", object, where);
     const mesh = checkedMesh(object.mesh, `${where}.mesh`);
     const material = checkedMaterial(object.material ?? {}, `${where}.material`);
     if (material.texture && !mesh.uvs) {
         throw new InputError(`${where}.mesh needs uvs, as its material has a texture`);
     }
-    return {
-        mesh,
-        position: check.vector(object.position ?? [0, 0, 0], `${where}.position`),
-        rotation: checkedRotation(object.rotation ?? [0, 0, 0, 1], `${where}.rotation`),
-        scale: check.number(object.scale ?? 1, `${where}.scale`, 0),
-        material,
-        cull: check.flag(object.cull ?? true, `${where}.cull`),
-        wireframe: check.flag(object.wireframe ?? false, `${where}.wireframe`),
-        twoSided: check.flag(object.twoSided ?? false, `${where}.twoSided`),
-        opacity: check.number(object.opacity ?? 1, `${where}.opacity`, 0, 1),
-        fade: object.fade && checkedFade(object.fade, `${where}.fade`),
-    };
-}
-
-function checkedFade(value: readonly [number, number], where: string): readonly [number, number] {
-    if (!check.isList(value) || value.length !== 2) throw new InputError(`${where} must be two distances`);
-    const [inner, outer] = [check.number(value[0], where, 0), check.number(value[1], where, 0)];
-    if (inner < outer) return [inner, outer];
-    throw new InputError(`the first distance of ${where}, ${inner}, must be below the second, ${outer}`);
+    const [inner, outer] = own.fade ?? [0, 1];
+    if (!(0 <= inner && inner < outer)) {
+        throw new InputError(`the distances of ${where}.fade must be 0 <= first < second, not ${inner} and ${outer}`);
+    }
+    const rotation = checkedRotation(object.rotation ?? FIELDS.SceneObject.rotation.default, `${where}.rotation`);
+    return { mesh, rotation, material, ...own };
 }
 
 function checkedRotation(value: given.Rotation, where: string): Quaternion {
@@ -244,24 +118,14 @@ function checkedRotation(value: given.Rotation, where: string): Quaternion {
 }
 
 function checkedMaterial(material: given.Material, where: string): Material {
-    check.fields(material, where, MATERIAL);
-    return {
-        shading: check.choice(material.shading ?? "flat", `${where}.shading`, SHADINGS),
-        ambient: check.number(material.ambient ?? 0.3, `${where}.ambient`, 0, 4),
-        diffuse: check.number(material.diffuse ?? 0.75, `${where}.diffuse`, 0, 4),
-        specular: check.number(material.specular ?? 0.3, `${where}.specular`, 0, 4),
-        shininess: check.whole(material.shininess ?? 24, `${where}.shininess`, 1, 128),
-        texture: material.texture && checkedTexture(material.texture, `${where}.texture`),
-        emission: check.color(material.emission ?? [0, 0, 0], `${where}.emission`),
-    };
+    const own = plain("Material", material, where);
+    return { ...own, texture: material.texture && checkedTexture(material.texture, `${where}.texture`) };
 }
 
 const checkedTexture = checkedOnce((texture: given.Texture, where: string): Texture => {
-    check.fields(texture, where, TEXTURE);
-    const width = check.whole(texture.width, `${where}.width`, 1, MAX_TEXTURE_SIDE);
-    const height = check.whole(texture.height, `${where}.height`, 1, MAX_TEXTURE_SIDE);
+    const own = plain("Texture", texture, where);
     const { pixels } = texture;
-    const count = width * height;
+    const count = own.width * own.height;
     const channels = check.isList(pixels) ? pixels.length / count : 0;
     if (channels !== 3 && channels !== 4) {
         throw new InputError(`${where}.pixels must be three or four bytes for each of ${count} texels`);
@@ -275,16 +139,12 @@ const checkedTexture = checkedOnce((texture: given.Texture, where: string): Text
         checkLevels(alpha, `${where}.alpha`);
     }
     return {
-        width,
-        height,
+        ...own,
         pixels: Uint8Array.from(
             { length: 3 * count },
             (_, at) => pixels[channels * Math.floor(at / 3) + (at % 3)] as number,
         ),
-        filter: check.choice(texture.filter ?? "bilinear", `${where}.filter`, FILTERS),
-        wrap: check.choice(texture.wrap ?? "repeat", `${where}.wrap`, WRAPS),
         alpha: alpha && Uint8Array.from(alpha),
-        cutoff: check.whole(texture.cutoff ?? 0, `${where}.cutoff`, 0, 255),
     };
 });
 
@@ -296,7 +156,7 @@ function checkLevels(levels: ArrayLike<number>, where: string): void {
 
 /** Return the mesh with all its tables, each of one type. It is the same one each time, and may share tables. */
 export const checkedMesh = checkedOnce((mesh: given.Mesh, where: string): Mesh => {
-    check.fields(mesh, where, MESH);
+    check.fields(mesh, where, namesOf("Mesh") as (keyof given.Mesh)[]);
     const positions = rows(mesh.positions, `${where}.positions`);
     const faces = rows(mesh.faces, `${where}.faces`);
     const [count, faceCount] = [positions.length / 3, faces.length / 3];
@@ -407,22 +267,14 @@ function rows(value: given.Rows, where: string, width: 3 | 4 = 3): Float64Array 
 }
 
 export function checkedCamera(camera: given.Camera): Camera {
-    check.fields(camera, "camera", CAMERA);
-    const projection = check.choice(camera.projection ?? "perspective", "camera.projection", PROJECTIONS);
-    const perspective = projection === "perspective";
+    const own = plain("Camera", camera, "camera");
+    const perspective = own.projection === "perspective";
     const [low, high] = perspective ? [2 ** -10, 2 ** 10] : [1e-30, 1e30];
-    const near = camera.near === undefined ? undefined : check.number(camera.near, "camera.near");
-    if (perspective && near !== undefined && near <= 0) {
-        throw new InputError(`camera.near must be above 0 for a perspective camera, not ${near}`);
+    check.number(own.halfHeight, "camera.halfHeight", low, high);
+    if (perspective && own.near !== undefined && own.near <= 0) {
+        throw new InputError(`camera.near must be above 0 for a perspective camera, not ${own.near}`);
     }
-    return {
-        eye: check.vector(camera.eye ?? [0, 0, 0], "camera.eye"),
-        target: check.vector(camera.target ?? [0, 0, -1], "camera.target"),
-        up: check.vector(camera.up ?? [0, 1, 0], "camera.up"),
-        projection,
-        halfHeight: check.number(camera.halfHeight ?? VIEW.halfHeight, "camera.halfHeight", low, high),
-        near,
-    };
+    return own;
 }
 
 function checkedLights(lights: readonly given.Light[]): Light[] {
@@ -435,71 +287,41 @@ function checkedLights(lights: readonly given.Light[]): Light[] {
 
 function checkedLight(light: given.Light, where: string): Light {
     const kind = check.choice((light as given.Light | null)?.kind, `${where}.kind`, LIGHT_KINDS);
-    check.fields(light as given.SpotLight, where, LIGHTS[kind]);
-    const color = check.color(light.color ?? WHITE, `${where}.color`);
-    const shadow = check.flag(light.shadow ?? false, `${where}.shadow`);
-    if (light.kind === "directional") {
-        return { kind, vector: nonzero(light.direction, `${where}.direction`), color, cone: undefined, shadow };
+    if (kind === "point") {
+        const { position, color, shadow } = plain("PointLight", light, where);
+        return { kind, vector: position, color, cone: undefined, shadow };
     }
-    const place = check.vector(light.position, `${where}.position`);
-    if (light.kind === "point") return { kind, vector: place, color, cone: undefined, shadow };
-    const direction = nonzero(light.direction, `${where}.direction`);
-    const innerAngle = check.number(light.innerAngle ?? 0, `${where}.innerAngle`, 0, 180);
-    const outerAngle = check.number(light.outerAngle ?? 45, `${where}.outerAngle`, 0, 180);
+    if (kind === "directional") {
+        const { direction, color, shadow } = plain("DirectionalLight", light, where);
+        return { kind, vector: nonzero(direction, `${where}.direction`), color, cone: undefined, shadow };
+    }
+    const { position, direction, color, innerAngle, outerAngle, shadow } = plain("SpotLight", light, where);
+    nonzero(direction, `${where}.direction`);
     if (innerAngle > outerAngle) {
         throw new InputError(`${where}.innerAngle, ${innerAngle}, must not be above its outerAngle, ${outerAngle}`);
     }
-    return { kind, vector: place, color, cone: { direction, innerAngle, outerAngle }, shadow };
+    return { kind, vector: position, color, cone: { direction, innerAngle, outerAngle }, shadow };
 }
 
-function nonzero(value: unknown, where: string): Vector {
-    const found = check.vector(value, where);
-    if (found.some((x) => x)) return found;
+function nonzero(value: Vector, where: string): Vector {
+    if (value.some((x) => x)) return value;
     throw new InputError(`${where} must not be zero`);
 }
 
 function checkedBackground(value: given.Background | given.Color): { top: Rgb; bottom: Rgb } {
-    const { top, bottom }: given.Background =
-        typeof value === "string" || check.isList(value)
-            ? { top: value }
-            : check.fields(value as given.Background, "background", BACKGROUND);
-    const found = check.color(top ?? [0, 0, 0], "background.top");
-    return { top: found, bottom: bottom === undefined ? found : check.color(bottom, "background.bottom") };
-}
-
-function checkedHemisphere(value: given.Hemisphere): Hemisphere {
-    const { sky, ground } = check.fields(value, "hemisphere", HEMISPHERE);
-    return {
-        sky: check.color(sky, "hemisphere.sky"),
-        ground: check.color(ground ?? [0, 0, 0], "hemisphere.ground"),
-    };
-}
-
-function checkedRim(value: given.Rim): Rim {
-    const { color, power } = check.fields(value, "rim", RIM);
-    return { color: check.color(color, "rim.color"), power: check.whole(power ?? 3, "rim.power", 1, 16) };
+    const own = typeof value === "string" || check.isList(value) ? { top: value as given.Color } : value;
+    const { top, bottom } = plain("Background", own as given.Background, "background");
+    return { top, bottom: bottom ?? top };
 }
 
 function checkedFog(value: given.Fog): Fog {
-    const { color, near, far } = check.fields(value, "fog", FOG);
-    const fog = {
-        color: check.color(color, "fog.color"),
-        near: check.number(near, "fog.near", 0),
-        far: check.number(far, "fog.far", 0),
-    };
+    const fog = plain("Fog", value, "fog");
     if (fog.near < fog.far) return fog;
     throw new InputError(`fog.near, ${fog.near}, must be below fog.far, ${fog.far}`);
 }
 
 function checkedGround(value: given.Ground): Ground {
-    const { color, height, radius, center, inner } = check.fields(value, "ground", GROUND);
-    const ground = {
-        color: check.color(color, "ground.color"),
-        height: height === undefined ? undefined : check.number(height, "ground.height"),
-        radius: radius === undefined ? undefined : check.number(radius, "ground.radius", 0),
-        center: center && (check.numbers(center, "ground.center", 2) as [number, number]),
-        inner: inner === undefined ? undefined : check.number(inner, "ground.inner", 0),
-    };
+    const ground = plain("Ground", value, "ground");
     if (ground.radius === 0) throw new InputError("ground.radius must be above 0");
     if (ground.radius !== undefined && ground.inner !== undefined) checkInner(ground.inner, ground.radius);
     return ground;
@@ -511,23 +333,14 @@ export function checkInner(inner: number, radius: number): void {
     throw new InputError(`ground.inner, ${inner}, must be below the radius of the ground, ${radius}`);
 }
 
-function checkedTone(value: given.Tone): Tone {
-    const { exposure, filmic, gamma } = check.fields(value, "tone", TONE);
-    return {
-        exposure: check.number(exposure ?? 1, "tone.exposure", 0, 64),
-        filmic: check.flag(filmic ?? false, "tone.filmic"),
-        gamma: check.flag(gamma ?? false, "tone.gamma"),
-    };
-}
-
-/** What a scene may have besides, by its keys: the keys of each, and what checks it. */
+/** What a scene may have besides, by its keys: the class of each, and what checks it. */
 export const EFFECTS = {
-    hemisphere: { known: HEMISPHERE, check: checkedHemisphere },
-    rim: { known: RIM, check: checkedRim },
-    fog: { known: FOG, check: checkedFog },
-    tone: { known: TONE, check: checkedTone },
-    ground: { known: GROUND, check: checkedGround },
-};
+    hemisphere: { of: "Hemisphere", check: (value: given.Hemisphere) => plain("Hemisphere", value, "hemisphere") },
+    rim: { of: "Rim", check: (value: given.Rim) => plain("Rim", value, "rim") },
+    fog: { of: "Fog", check: checkedFog },
+    tone: { of: "Tone", check: (value: given.Tone) => plain("Tone", value, "tone") },
+    ground: { of: "Ground", check: checkedGround },
+} as const;
 
 /** A mesh in the world. */
 type Placed = Pick<SceneObject, "mesh" | "position" | "rotation" | "scale">;

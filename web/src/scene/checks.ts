@@ -5,7 +5,7 @@ import { rint, type Quaternion, type Vector } from "./arithmetic.js";
 import { COLOR_NAMES } from "./color_names.js";
 
 /** Red, green, blue, 0..255. */
-export type Rgb = [number, number, number];
+export type Rgb = readonly [number, number, number];
 /** Red, green, blue and alpha, 0..255. */
 export type Rgba = [number, number, number, number];
 

@@ -4,6 +4,7 @@ import { InputError, about } from "../errors.js";
 import type { Quaternion, Vector } from "./arithmetic.js";
 import type { Mesh, Texture } from "./checked.js";
 import type { Rgb } from "./checks.js";
+import { MAX_COORDINATE } from "./constants.js";
 import {
     CULL_BACKFACES,
     EXPOSURE,
@@ -15,7 +16,6 @@ import {
     WORD,
     encode,
 } from "./encode.js";
-import { MAX_COORDINATE } from "./fit.js";
 import { OPAQUE } from "./ground.js";
 import { unpack } from "./mesh.js";
 import { OBJECT_WORDS, Reader, type ObjectPlaces } from "./reader.js";
@@ -56,7 +56,8 @@ function withGround(scene: Scene): Scene[] {
     if (!last?.fade || !last.position) return [];
     const [x, height, z] = last.position;
     const [inner, radius] = last.fade;
-    const color = Array.from((last.mesh.colors as Uint8Array).subarray(0, 3)) as Rgb;
+    const [red, green, blue] = last.mesh.colors as Uint8Array;
+    const color: Rgb = [red, green, blue];
     const ground: Ground = { color, height, radius, center: [x, z] };
     return [ground, { ...ground, inner }].map((each) => ({
         ...scene,
@@ -192,15 +193,14 @@ function effectsOf(recordOf: Records): Partial<Scene> {
     const [hemisphere, rim, fog, tone] = [records.HEMISPHERE, records.RIM, records.FOG, records.TONE].map((kind) =>
         recordOf(kind, 0),
     );
-    const color = (view: DataView, at = 0): Rgb => [0, 1, 2].map((channel) => view.getUint8(at + channel)) as Rgb;
+    const color = (view: DataView, at = 0): Rgb => [view.getUint8(at), view.getUint8(at + 1), view.getUint8(at + 2)];
     return {
         hemisphere: hemisphere && { sky: color(hemisphere), ground: color(hemisphere, 3) },
         rim: rim && { color: color(rim), power: rim.getUint8(3) },
         fog: fog && { color: color(fog), near: q32At(fog, 3), far: q32At(fog, 11) },
         tone: tone && {
             exposure: tone.getUint32(0) / EXPOSURE,
-            filmic: (tone.getUint8(4) & records.TONE_FILMIC) > 0,
-            gamma: (tone.getUint8(4) & records.TONE_GAMMA) > 0,
+            ...Object.fromEntries(records.TONE_FLAGS.map(([name, bit]) => [name, (tone.getUint8(4) & bit) > 0])),
         },
     };
 }

@@ -3,7 +3,7 @@
 // Every field of the structs is a word of 32 bytes; lengths and coefficients are Q32 fixed-point numbers, value * 2^32.
 
 import { InputError, about } from "../errors.js";
-import { joined } from "../evm/bytes.js";
+import { joined } from "../bytes.js";
 import { cosine, rint } from "./arithmetic.js";
 import { checkedScene, type Light, type Scene as CheckedScene, type SceneObject } from "./checked.js";
 import * as check from "./checks.js";
@@ -99,86 +99,65 @@ function encodeScene(scene: FittedScene): Uint8Array[] {
 
 /** Return the fields that the structs do not have: records in ascending order of kind and index. */
 function extensions(scene: CheckedScene): Uint8Array {
-    const made: Uint8Array[] = [];
-    scene.lights.forEach(({ cone }, index) => {
+    const made: [kind: number, index: number, content: Uint8Array][] = [];
+    const add = (kind: number, index: number, ...content: (Uint8Array | readonly number[])[]): void =>
+        void made.push([
+            kind,
+            index,
+            joined(content.map((part) => (part instanceof Uint8Array ? part : Uint8Array.from(part)))),
+        ]);
+    scene.lights.forEach(({ cone, shadow }, index) => {
+        if (shadow) add(records.SHADOW, index, words([shadowRule(scene)]));
         if (!cone) return;
-        const content = new DataView(new ArrayBuffer(records.SIZES[records.SPOT]));
         const numbers = [...cone.direction, cosine(cone.innerAngle), cosine(cone.outerAngle)];
-        numbers.forEach((value, place) => content.setBigInt64(8 * place, q32(value)));
-        made.push(record(records.SPOT, index, content));
+        add(records.SPOT, index, longs(numbers.map(q32)));
     });
     scene.objects.forEach((object, index) => {
-        if (isOpaque(object)) return;
-        const content = new DataView(new ArrayBuffer(records.SIZES[records.OPACITY_OF]));
-        content.setUint32(0, rint(object.opacity * OPAQUE));
-        made.push(record(records.OPACITY_OF, index, content));
+        const { mesh, material, opacity, fade } = object;
+        const { texture, emission } = material;
+        if (!isOpaque(object)) add(records.OPACITY_OF, index, long(rint(opacity * OPAQUE)));
+        if (texture && mesh.uvs) {
+            const { uvs } = mesh;
+            add(
+                records.TEXTURE_OF,
+                index,
+                about(`objects[${index}]`, () => packTexture(texture, uvs)),
+            );
+        }
+        if (texture?.alpha) add(records.ALPHA_OF, index, packAlpha(texture, texture.alpha));
+        if (mesh.opacities) {
+            const levels = Array.from(mesh.opacities, (each) => rint(255 * each));
+            add(records.OPACITIES_OF, index, levels, new Uint8Array(-levels.length & (WORD - 1)));
+        }
+        if (fade) {
+            const within = (each: number, most: bigint): bigint => (q32(each) < most ? q32(each) : most);
+            add(
+                records.GROUND,
+                index,
+                range(within(fade[0], MAX_INNER_FADE), within(fade[1], MAX_FADE)),
+                longs([0, 0]),
+            );
+        }
+        if (emission.some(Boolean)) add(records.EMISSION_OF, index, words([rgb(emission)]));
     });
-    if (scene.antialias) made.push(record(records.ANTIALIAS, 0, new DataView(new ArrayBuffer(0))));
-    made.push(...effects(scene));
-    scene.objects.forEach(({ mesh, material: { texture } }, index) => {
-        if (!texture || !mesh.uvs) return;
-        const { uvs } = mesh;
-        const content = about(`objects[${index}]`, () => packTexture(texture, uvs));
-        made.push(record(records.TEXTURE_OF, index, new DataView(content.buffer)));
-    });
-    scene.objects.forEach(({ mesh: { opacities } }, index) => {
-        if (!opacities) return;
-        const content = new Uint8Array(opacities.length + (-opacities.length & (WORD - 1)));
-        content.set(opacities.map((each) => rint(255 * each)));
-        made.push(record(records.OPACITIES_OF, index, new DataView(content.buffer)));
-    });
-    let rule: number | undefined;
-    scene.lights.forEach(({ shadow }, index) => {
-        if (!shadow) return;
-        made.push(record(records.SHADOW, index, new DataView(words([(rule ??= shadowRule(scene))]).buffer)));
-    });
-    scene.objects.forEach(({ fade }, index) => {
-        if (!fade) return;
-        const content = new DataView(new ArrayBuffer(WORD));
-        const within = (each: number, most: bigint): bigint => (q32(each) < most ? q32(each) : most);
-        const [inner, outer] = [within(fade[0], MAX_INNER_FADE), within(fade[1], MAX_FADE)];
-        content.setBigInt64(0, inner);
-        content.setBigInt64(8, outer > inner ? outer : inner + 1n);
-        made.push(record(records.GROUND, index, content));
-    });
-    scene.objects.forEach(({ material: { emission } }, index) => {
-        if (!emission.some(Boolean)) return;
-        made.push(record(records.EMISSION_OF, index, new DataView(words([rgb(emission)]).buffer)));
-    });
-    scene.objects.forEach(({ material: { texture } }, index) => {
-        if (!texture?.alpha) return;
-        made.push(record(records.ALPHA_OF, index, new DataView(packAlpha(texture, texture.alpha).buffer)));
-    });
-    return joined(made);
-}
-
-function effects({ hemisphere, rim, fog, tone }: CheckedScene): Uint8Array[] {
-    const made: Uint8Array[] = [];
-    const add = (kind: number, ...bytes: number[]): void => {
-        made.push(record(kind, 0, new DataView(Uint8Array.from(bytes).buffer)));
-    };
-    if (hemisphere) add(records.HEMISPHERE, ...hemisphere.sky, ...hemisphere.ground);
-    if (rim) add(records.RIM, ...rim.color, rim.power);
-    if (fog) {
-        const distances = new DataView(new ArrayBuffer(16));
-        const [near, far] = [q32(fog.near), q32(fog.far)];
-        distances.setBigInt64(0, near);
-        distances.setBigInt64(8, far > near ? far : near + 1n);
-        add(records.FOG, ...fog.color, ...new Uint8Array(distances.buffer));
-    }
+    const { antialias, hemisphere, rim, fog, tone } = scene;
+    if (antialias) add(records.ANTIALIAS, 0);
+    if (hemisphere) add(records.HEMISPHERE, 0, hemisphere.sky, hemisphere.ground);
+    if (rim) add(records.RIM, 0, rim.color, [rim.power]);
+    if (fog) add(records.FOG, 0, fog.color, range(q32(fog.near), q32(fog.far)));
     if (tone) {
-        const exposure = new DataView(new ArrayBuffer(4));
-        exposure.setUint32(0, Math.max(rint(tone.exposure * EXPOSURE), 1));
-        add(
-            records.TONE,
-            ...new Uint8Array(exposure.buffer),
-            (tone.filmic ? records.TONE_FILMIC : 0) | (tone.gamma ? records.TONE_GAMMA : 0),
-        );
+        const flags = records.TONE_FLAGS.reduce((sum, [name, bit]) => sum + (tone[name] ? bit : 0), 0);
+        add(records.TONE, 0, long(Math.max(rint(tone.exposure * EXPOSURE), 1)), [flags]);
     }
-    return made;
+    return joined(made.sort(([a, first], [b, second]) => a - b || first - second).map((each) => record(...each)));
 }
 
-function record(kind: number, index: number, content: DataView): Uint8Array {
+/** Return two distances, the second of which is the greater. */
+function range(near: bigint, far: bigint): Uint8Array {
+    return longs([near, far > near ? far : near + 1n]);
+}
+
+function record(kind: number, index: number, content: Uint8Array): Uint8Array {
     if (index > 0xffff) {
         throw new InputError(
             `objects with an opacity, a texture, a fade or an emission must be among the first 65,536 of a scene, not number ${index}`,
@@ -187,8 +166,20 @@ function record(kind: number, index: number, content: DataView): Uint8Array {
     const head = new DataView(new ArrayBuffer(records.RECORD_HEADER));
     head.setUint8(0, kind);
     head.setUint16(1, index);
-    head.setUint16(3, kind < records.LONG_KINDS ? content.byteLength : content.byteLength / WORD);
-    return joined([new Uint8Array(head.buffer), new Uint8Array(content.buffer)]);
+    head.setUint16(3, kind < records.LONG_KINDS ? content.length : content.length / WORD);
+    return joined([new Uint8Array(head.buffer), content]);
+}
+
+/** Return a whole number in 4 bytes. */
+function long(value: number): Uint8Array {
+    return longs([value]).subarray(4);
+}
+
+/** Return whole numbers in 8 bytes each. */
+function longs(values: readonly (number | bigint)[]): Uint8Array {
+    const view = new DataView(new ArrayBuffer(8 * values.length));
+    values.forEach((value, place) => view.setBigInt64(8 * place, BigInt(value)));
+    return new Uint8Array(view.buffer);
 }
 
 function encodeLight(light: Light): Uint8Array {

@@ -28,26 +28,10 @@ import {
     type Scene,
     type SceneObject,
 } from "./checked.js";
+import * as constant from "./constants.js";
 import { withGround } from "./ground.js";
 import { remembered } from "./memory.js";
 import { MAX_SHORT, MAX_WIDE, fits, isIntegral, vertexNormals } from "./mesh.js";
-
-/** Limits of the contracts, in world units. */
-export const MAX_COORDINATE = 2 ** 26;
-export const MIN_HALF_HEIGHT = 2 ** -12;
-const STEP = 2 ** -32;
-
-/** The largest step of a mesh's grid, in pixels, before a finer grid is used. */
-const STEP_IN_PIXELS = 1 / 32;
-/** The sizes of scenes that are not scaled. A scene that was moved, with its eye at the origin, may reach farther. */
-const EXACT_SIZES = [2 ** -2, 2 ** 22] as const;
-/** The exponents to which others are scaled: of their largest object, and of the farthest point at most. */
-const SIZE_EXPONENT = 12;
-const REACH_EXPONENT = 25;
-/** The default near plane as a share of the farthest distance. */
-const NEAR_PART = 2 ** -10;
-/** Directions of these lengths keep their precision in multiples of 2^-32. */
-const DIRECTION_LENGTHS = [2 ** -8, 2 ** 20] as const;
 
 /** A scene whose camera has a near plane. */
 export type FittedScene = Scene & { camera: { near: number } };
@@ -62,7 +46,7 @@ export function fit(scene: Scene): FittedScene {
         near = nearPlane(prepared, 1, 1);
     } else {
         const factor = factorOf(prepared);
-        near = nearPlane(prepared, factor, MAX_COORDINATE);
+        near = nearPlane(prepared, factor, constant.MAX_COORDINATE);
         camera = moveCamera(camera, factor);
         lights = lights.map((light) => moveLight(light, scene.camera.eye, factor));
         objects = objects.map((object) => moveObject(object, prepared, factor, near));
@@ -166,12 +150,12 @@ function isExact({ camera, lights, objects, fog }: Scene): boolean {
     // by `moveCamera`: a scene decoded from a call must not be moved again
     const isMoved = largest(camera.eye) === 0 && (camera.near !== undefined || camera.projection === "orthographic");
     return (
-        EXACT_SIZES[0] <= reach &&
-        (reach <= EXACT_SIZES[1] || (isMoved && largest(lengths) <= MAX_COORDINATE)) &&
-        lengths.every((each) => each % STEP === 0) &&
-        (camera.projection === "perspective" || camera.halfHeight >= MIN_HALF_HEIGHT) &&
-        length(view) >= DIRECTION_LENGTHS[0] &&
-        (fog === undefined || fog.far <= MAX_COORDINATE)
+        constant.EXACT_SIZES[0] <= reach &&
+        (reach <= constant.EXACT_SIZES[1] || (isMoved && largest(lengths) <= constant.MAX_COORDINATE)) &&
+        lengths.every((each) => each % constant.STEP === 0) &&
+        (camera.projection === "perspective" || camera.halfHeight >= constant.MIN_HALF_HEIGHT) &&
+        length(view) >= constant.DIRECTION_LENGTHS[0] &&
+        (fog === undefined || fog.far <= constant.MAX_COORDINATE)
     );
 }
 
@@ -189,8 +173,8 @@ function factorOf(scene: Scene): number {
     }
     // what is so near to the eye is clear in fog that ends beyond
     if (scene.fog) reach = Math.max(reach, Math.min(scene.fog.far, 1024 * reach));
-    let exponent = reach ? REACH_EXPONENT - exponentOf(reach) : 0;
-    if (size) exponent = Math.min(exponent, SIZE_EXPONENT - exponentOf(size));
+    let exponent = reach ? constant.REACH_EXPONENT - exponentOf(reach) : 0;
+    if (size) exponent = Math.min(exponent, constant.SIZE_EXPONENT - exponentOf(size));
     return powerOfTwo(Math.min(Math.max(exponent, -1000), 1000));
 }
 
@@ -217,14 +201,14 @@ function moveCamera(camera: Camera, factor: number): Camera {
     let { halfHeight } = camera;
     if (camera.projection === "orthographic") {
         halfHeight *= factor;
-        if (halfHeight < MIN_HALF_HEIGHT) {
+        if (halfHeight < constant.MIN_HALF_HEIGHT) {
             throw new InputError(`the camera's halfHeight ${camera.halfHeight} is too small for the size of the scene`);
         }
     }
     return {
         ...camera,
         eye: [0, 0, 0],
-        target: times(2 ** SIZE_EXPONENT, forward),
+        target: times(2 ** constant.SIZE_EXPONENT, forward),
         // upright on the line of sight, so that the cross product loses nothing
         up: unit(subtract(up, times(dot(up, forward), forward))),
         halfHeight,
@@ -235,11 +219,14 @@ function moveCamera(camera: Camera, factor: number): Camera {
 function nearPlane(scene: Scene, factor: number, most: number): number {
     const { projection, near } = scene.camera;
     if (projection === "orthographic") {
-        return Math.min(Math.max(near === undefined ? -Infinity : near * factor, -MAX_COORDINATE), MAX_COORDINATE);
+        return Math.min(
+            Math.max(near === undefined ? -Infinity : near * factor, -constant.MAX_COORDINATE),
+            constant.MAX_COORDINATE,
+        );
     }
-    if (near !== undefined) return Math.min(Math.max(near * factor, STEP), MAX_COORDINATE);
+    if (near !== undefined) return Math.min(Math.max(near * factor, constant.STEP), constant.MAX_COORDINATE);
     const { farthest } = extentOf(scene);
-    return farthest ? Math.max(Math.min(farthest * factor * NEAR_PART, most), STEP) : 1;
+    return farthest ? Math.max(Math.min(farthest * factor * constant.NEAR_PART, most), constant.STEP) : 1;
 }
 
 function moveLight(light: Light, eye: Vector, factor: number): Light {
@@ -247,13 +234,13 @@ function moveLight(light: Light, eye: Vector, factor: number): Light {
     const place = times(factor, subtract(light.vector, eye));
     // a light so far away keeps its direction
     const distance = largest(place);
-    return { ...light, vector: distance ? times(Math.min(1, 2 ** REACH_EXPONENT / distance), place) : place };
+    return { ...light, vector: distance ? times(Math.min(1, 2 ** constant.REACH_EXPONENT / distance), place) : place };
 }
 
 function moveFog(fog: Fog, factor: number): Fog {
     // nothing is as far away as the largest distances
-    const far = Math.min(Math.max(fog.far * factor, STEP), MAX_COORDINATE);
-    return { ...fog, near: Math.min(fog.near * factor, MAX_COORDINATE - 1), far };
+    const far = Math.min(Math.max(fog.far * factor, constant.STEP), constant.MAX_COORDINATE);
+    return { ...fog, near: Math.min(fog.near * factor, constant.MAX_COORDINATE - 1), far };
 }
 
 /** Return the object about the eye. near: the distance of the near plane, times the factor. */
@@ -297,9 +284,10 @@ function stepsOf(
 ): number {
     const size = object.scale * radius;
     const isCoarse = (nearest: number): boolean =>
-        size * (height / (2 * camera.halfHeight) / Math.max(nearest, near / factor)) <= STEP_IN_PIXELS * MAX_SHORT;
+        size * (height / (2 * camera.halfHeight) / Math.max(nearest, near / factor)) <=
+        constant.STEP_IN_PIXELS * MAX_SHORT;
     if (camera.projection === "orthographic") {
-        if (size * (height / (2 * camera.halfHeight)) <= STEP_IN_PIXELS * MAX_SHORT) return MAX_SHORT;
+        if (size * (height / (2 * camera.halfHeight)) <= constant.STEP_IN_PIXELS * MAX_SHORT) return MAX_SHORT;
     } else {
         const forward = unit(subtract(camera.target, camera.eye));
         const middle = add(object.position, rotation(object.rotation)(times(object.scale, center)));
@@ -319,15 +307,15 @@ function stepsOf(
         if (isCoarse(nearest)) return MAX_SHORT;
     }
     // the contract's matrix is rounded to 2^-32 units a step: with more steps that would be more than one of them
-    return Math.trunc(Math.min(Math.max(Math.sqrt((size * factor) / STEP), MAX_SHORT), MAX_WIDE));
+    return Math.trunc(Math.min(Math.max(Math.sqrt((size * factor) / constant.STEP), MAX_SHORT), MAX_WIDE));
 }
 
 /** Return the scale up to which the contracts draw a mesh of these coordinates, which depends on their bits. */
 function maxScale({ isShort }: Facts): number {
-    return isShort ? 2 ** 12 : 2 ** 4;
+    return isShort ? constant.MAX_SCALE_SHORT : constant.MAX_SCALE_WIDE;
 }
 
 export function direction<V extends Vector | Quaternion>(v: V): V {
     const size = largest(v);
-    return DIRECTION_LENGTHS[0] <= size && size <= DIRECTION_LENGTHS[1] ? v : unit(v);
+    return constant.DIRECTION_LENGTHS[0] <= size && size <= constant.DIRECTION_LENGTHS[1] ? v : unit(v);
 }

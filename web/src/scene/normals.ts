@@ -3,6 +3,7 @@
 
 import { boundsOf, cosine, cross, dot, largest, length, rint, rowOf, subtract } from "./arithmetic.js";
 import { checkedMesh, type Mesh } from "./checked.js";
+import * as constant from "./constants.js";
 import type { Rgb } from "./checks.js";
 import { remembered } from "./memory.js";
 import { areaNormals } from "./mesh.js";
@@ -10,21 +11,9 @@ import { Parts, edgesOf, next, pointsOf, rowsOf } from "./topology.js";
 import { rgbaOf, weld } from "./weld.js";
 import { against } from "./winding.js";
 
-/** The largest angle, in degrees, at which an edge is smooth, and that up to which a crease that ends is. */
-type Angles = readonly [number, number];
-
-const SOLID: Angles = [40, 60];
-const FIGURE: Angles = [75, 75];
-const FACETS: Angles = [1, 1];
-const ANGLES = [SOLID, FIGURE, FACETS];
-const [FLAT, FLAT_SHARE] = [0.25, 0.12];
-const [GAP, GAP_TIMES, GAP_SHARE] = [[35, 65], 3, 0.05] as const;
-const [FEW_FACES, COARSE, COARSE_UNEVEN, UNEVEN] = [100, 30, 15, 0.4];
-const NEEDLE = 0.1;
-const ROUNDING = 1e-6;
-const DIGITS = 1e6;
-const STRAIGHT = 0.99985;
-const MOST_PAIRS = 16;
+/** Where edges are smooth, by shape. */
+const ANGLES = [constant.SOLID, constant.FIGURE, constant.FACETS];
+const DIGITS = 10 ** constant.DIGITS;
 
 /**
  * Return the mesh with smooth normals, except across edges at which faces differ by more than `degrees`, or, if null, by
@@ -195,7 +184,7 @@ function pairsOf(points: Float64Array, corners: Uint32Array, sizes: Float64Array
     }
     const [one, other]: number[][] = [[], []];
     for (const side of upward) {
-        if (around[edges[side]] > MOST_PAIRS) continue;
+        if (around[edges[side]] > constant.MOST_PAIRS) continue;
         for (let back = first[edges[side]]; back >= 0; back = following[back]) {
             one.push(side);
             other.push(back);
@@ -209,11 +198,11 @@ function pairsOf(points: Float64Array, corners: Uint32Array, sizes: Float64Array
 function creasesOf(surface: Surface, degrees: number | null): Uint8Array {
     const { pairs, units } = surface;
     const { shape, directions } = degrees === null ? byShape(surface) : { shape: undefined, directions: units };
-    const angles = degrees === null ? ANGLES : [[degrees, SOLID[1]]];
+    const angles = degrees === null ? ANGLES : [[degrees, constant.SOLID[1]]];
     const limits = angles.map((row) => row.map(cosine));
     const cosines = Float64Array.from(pairs.here, (face, pair) => dotAt(directions, 3 * face, 3 * pairs.there[pair]));
     const limitsOf = (pair: number): number[] => limits[shape ? shape[pair] : 0];
-    const isHard = Uint8Array.from(cosines, (each, pair) => Number(each < limitsOf(pair)[0] - ROUNDING));
+    const isHard = Uint8Array.from(cosines, (each, pair) => Number(each < limitsOf(pair)[0] - constant.ROUNDING));
     removeDeadEnds(isHard, (pair) => cosines[pair] > limitsOf(pair)[1], surface);
     return isHard;
 }
@@ -246,18 +235,29 @@ function byShape(surface: Surface): { shape: Uint8Array; directions: Float64Arra
         return sums.map((sum, each) => (totals[each] > 0 ? sum / totals[each] : 0));
     };
     const among = (low: number, high: number) => (turn: number) => turn > low && turn <= high;
-    const [isAny, isSeen, isBlunt] = [among(-1, 181), among(FACETS[0], 181), among(FACETS[0], GAP[1])];
-    const [flat, middling, sharp] = [among(-1, FLAT), among(...GAP), among(GAP[1], 181)].map((isIn) =>
-        mean(isAny, (turn) => Number(isIn(turn))),
+    const [isAny, isSeen, isBlunt] = [
+        among(-1, 181),
+        among(constant.FACETS[0], 181),
+        among(constant.FACETS[0], constant.GAP[1]),
+    ];
+    const [flat, middling, sharp] = [among(-1, constant.FLAT), among(...constant.GAP), among(constant.GAP[1], 181)].map(
+        (isIn) => mean(isAny, (turn) => Number(isIn(turn))),
     );
     const [average, middle] = [isSeen, isBlunt].map((isIn) => mean(isIn, (turn) => turn));
     const spread = mean(isBlunt, (turn, each) => (turn - middle[each]) * (turn - middle[each]));
     const isSolid = flat.map((each, at) =>
-        Number(each >= FLAT_SHARE || (sharp[at] >= GAP_TIMES * middling[at] && sharp[at] >= GAP_SHARE)),
+        Number(
+            each >= constant.FLAT_SHARE ||
+                (sharp[at] >= constant.GAP_TIMES * middling[at] && sharp[at] >= constant.GAP_SHARE),
+        ),
     );
     const isAllCorners = flat.map((each, at) => {
-        const isUneven = Math.sqrt(spread[at]) >= UNEVEN * middle[at];
-        return Number(each < FLAT_SHARE && faces[at] <= FEW_FACES && average[at] > (isUneven ? COARSE_UNEVEN : COARSE));
+        const isUneven = Math.sqrt(spread[at]) >= constant.UNEVEN * middle[at];
+        return Number(
+            each < constant.FLAT_SHARE &&
+                faces[at] <= constant.FEW_FACES &&
+                average[at] > constant.COARSE[isUneven ? 0 : 1],
+        );
     });
     const hasFigure = faces.some((each, at) => each && !isSolid[at] && !isAllCorners[at]);
     const shapes = isSolid.map((each, at) => (isAllCorners[at] && !hasFigure ? 2 : each ? 0 : 1));
@@ -266,7 +266,7 @@ function byShape(surface: Surface): { shape: Uint8Array; directions: Float64Arra
     // faces that simplification left, much lower than long, have the direction of the larger one beside them
     const straighten = (face: number, larger: number, pair: number): void => {
         const most = longest[face];
-        const isNeedle = shapes[part[pair]] === 1 && sizes[face] < NEEDLE * (most * most);
+        const isNeedle = shapes[part[pair]] === 1 && sizes[face] < constant.NEEDLE * (most * most);
         if (!isNeedle || sides[one[pair]] < (1 - 1e-9) * most || 2 * sizes[face] >= sizes[larger]) return;
         directions.set(units.subarray(3 * larger, 3 * larger + 3), 3 * face);
     };
@@ -308,7 +308,7 @@ function areFlat(positions: Float64Array, faces: Uint32Array, normals: Float64Ar
     const { areas, sizes } = areasAndAngles(scaled(positions, 0), faces);
     return faces.every((_, corner) => {
         const along = dotAt(normals, 3 * corner, corner - (corner % 3), areas);
-        return along >= STRAIGHT * lengthAt(normals, 3 * corner) * sizes[faceOf(corner)];
+        return along >= constant.STRAIGHT * lengthAt(normals, 3 * corner) * sizes[faceOf(corner)];
     });
 }
 

@@ -26,6 +26,11 @@ export const SHADOWS_FRONT_FACES = 3;
 export const LONG_KINDS = 8;
 /** Bytes of a record before its content. */
 export const RECORD_HEADER = 5;
+/** The fields and the flags of a tone. */
+export const TONE_FLAGS = [
+    ["filmic", TONE_FILMIC],
+    ["gamma", TONE_GAMMA],
+] as const;
 /** Bytes of the content, for kinds of one size. */
 export const SIZES = {
     [SPOT]: 40,

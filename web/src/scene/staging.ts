@@ -3,9 +3,8 @@
 import { InputError } from "../errors.js";
 import { add, boundsOf, cosine, cross, sine, subtract, tangent, times, type Vector } from "./arithmetic.js";
 import { number } from "./checks.js";
+import { FIELDS } from "./fields.js";
 import type { DirectionalLight, Projection } from "./types.js";
-
-export const PROJECTIONS = ["perspective", "orthographic"] as const;
 
 /** Toward the light, in the directions right, up and toward the viewer. */
 const KEY_LIGHT: Vector = [-0.4, 0.7, 0.8];
@@ -23,18 +22,19 @@ export interface Viewpoint {
     aspect: number;
 }
 
+const { azimuth, elevation, margin, projection, halfHeight, fov: FOV } = FIELDS.Camera;
 export const VIEW: Viewpoint = {
-    azimuth: 30,
-    elevation: 20,
-    margin: 0.08,
-    projection: "perspective",
-    halfHeight: 1 / 2.145,
+    azimuth: azimuth.default,
+    elevation: elevation.default,
+    margin: margin.default,
+    projection: projection.default,
+    halfHeight: halfHeight.default,
     aspect: 1,
 };
 
 /** Return the `halfHeight` of a perspective camera with a vertical field of view in degrees, 0.2..179.8. */
 export function halfHeightOf(fov: number): number {
-    return tangent(number(fov, "the field of view in degrees", 0.2, 179.8) / 2);
+    return tangent(number(fov, "the field of view in degrees", ...FOV.limits) / 2);
 }
 
 /** Return unit vectors to the right, upward, and toward a viewer. */

@@ -1,19 +1,13 @@
-// What a scene is made of. docs/scene-files.md describes the fields; units and ranges are those of scene files.
+// What a scene is made of, in the units and ranges of scene files: docs/scene-files.md.
+// Written by tools/scene_fields.py from contracts/scene_fields.toml.
 
-/** Rows of three numbers, as arrays or one after the other. */
-export type Rows = ArrayLike<number> | readonly ArrayLike<number>[];
+import type { Color, Rotation, Rows, Vector3 } from "./values.js";
 
-/** x, y, z. */
-export type Vector3 = readonly [number, number, number];
+export type * from "./values.js";
 
-/**
- * Red, green and blue in whole numbers 0..255, or in fractions 0..1 of which one at least is not whole; "#rgb", "#rrggbb",
- * or the CSS name of a colour. `Mesh.colors` also takes an alpha, "#rgba" or "#rrggbbaa".
- */
-export type Color = readonly [number, number, number] | string;
+export type Shading = "unlit" | "flat" | "smooth";
 
-/** Three angles in degrees about the axes x, then y, then z; or a quaternion x, y, z, w of any length but zero. */
-export type Rotation = Vector3 | readonly [number, number, number, number];
+export type Projection = "perspective" | "orthographic";
 
 /** A triangle mesh; counter-clockwise faces are seen from the front. It must not change after it was encoded. */
 export interface Mesh {
@@ -39,8 +33,9 @@ export interface Mesh {
 
 /** An image that is multiplied with the colours of a mesh, at the places of `Mesh.uvs`. It must not change, either. */
 export interface Texture {
-    /** Texels of a row, and rows: 1..256. */
+    /** Texels of a row, 1..256. */
     width: number;
+    /** Rows, 1..256. */
     height: number;
     /** Red, green and blue of each texel, 0..255, rows from the top; also with an alpha, as `ImageData` has them. */
     pixels: ArrayLike<number>;
@@ -51,53 +46,55 @@ export interface Texture {
     /** What each texel hides of what is behind it, 0..255; all are opaque by default, whatever alpha pixels have. */
     alpha?: ArrayLike<number> | undefined;
     /**
-     * The least alpha of what is drawn, 1..255, which is opaque then; 0, the default, if the surface is blended with what
-     * is behind it.
+     * The least alpha of what is drawn, which is opaque then, 0..255; 0 if the surface is blended with what is behind
+     * it; 0 by default.
      */
     cutoff?: number | undefined;
 }
 
-export type Shading = "unlit" | "flat" | "smooth";
-
-/** Coefficients of Blinn-Phong shading, each 0..4; `shininess` is a whole number, 1..128. */
+/** Coefficients of Blinn-Phong shading. */
 export interface Material {
     shading?: Shading | undefined;
+    /** Coefficient of the ambient light, 0..4; 0.3 by default. */
     ambient?: number | undefined;
+    /** Coefficient of diffuse light, 0..4; 0.75 by default. */
     diffuse?: number | undefined;
+    /** Coefficient of the highlights, 0..4; 0.3 by default. */
     specular?: number | undefined;
+    /** Exponent of the highlights, 1..128; larger values make smaller highlights; 24 by default. */
     shininess?: number | undefined;
     /** Needs a mesh with `uvs`. */
     texture?: Texture | undefined;
-    /** The light that the surface emits, added to what it reflects; black, for none, by default. */
+    /** The colour of the light that the surface emits, added to what it reflects; black by default. */
     emission?: Color | undefined;
 }
 
 /** A mesh in the world: a vertex v is at position + rotation(scale * v). */
 export interface SceneObject {
     mesh: Mesh;
+    /** The position of the mesh's origin; [0, 0, 0] by default. */
     position?: Vector3 | undefined;
     rotation?: Rotation | undefined;
+    /** A factor of its size, at least 0; 1 by default. */
     scale?: number | undefined;
     material?: Material | undefined;
-    /** Whether faces that turn away from the viewer are left out; true by default. */
+    /** Whether to leave out faces that point away from the viewer; true by default. */
     cull?: boolean | undefined;
-    /** Whether only the edges are drawn. */
+    /** Whether to draw only the edges, one pixel wide. */
     wireframe?: boolean | undefined;
-    /**
-     * Whether faces that turn away from the viewer, if they are not left out, are lit as from their front. Wires always
-     * have the light of the front.
-     */
+    /** Whether the backs of faces are lit like their fronts; does not apply to wires. */
     twoSided?: boolean | undefined;
-    /** 0..1. Objects below 1, and those of which vertices are, are drawn after the others, in their order. */
+    /**
+     * Opacity, 0..1; 1 by default. Objects below 1, and those whose vertices have opacities, are drawn after the
+     * others, in their order: list the farthest first.
+     */
     opacity?: number | undefined;
     /**
-     * Of a ground, which casts no shadow: the distances from its position at which it begins to fade into what is behind
-     * it, and at which nothing is left of it.
+     * `[inner, outer]`: makes the object a ground, which casts no shadow. The numbers are the distances from its
+     * position at which it begins to fade and at which it is invisible.
      */
     fade?: readonly [number, number] | undefined;
 }
-
-export type Projection = "perspective" | "orthographic";
 
 /** A camera; by default at the origin, looking down -z. */
 export interface Camera {
@@ -105,9 +102,14 @@ export interface Camera {
     target?: Vector3 | undefined;
     up?: Vector3 | undefined;
     projection?: Projection | undefined;
-    /** Half the height of what the picture shows: at distance 1 in perspective (`halfHeightOf`), else in world units. */
+    /**
+     * Half the height of what the picture shows: at distance 1 in perspective (`halfHeightOf`), else in world units.
+     */
     halfHeight?: number | undefined;
-    /** Distance of the near plane. */
+    /**
+     * Distance of the near plane; by default 1/1024 of the farthest distance of an object, and an orthographic camera
+     * clips nothing.
+     */
     near?: number | undefined;
 }
 
@@ -115,8 +117,9 @@ export interface Camera {
 export interface DirectionalLight {
     kind: "directional";
     direction: Vector3;
+    /** The colour of the light; white by default. */
     color?: Color | undefined;
-    /** Whether objects cast shadows in its light; of one light at most. */
+    /** Whether objects cast shadows from this light; for one light at most. */
     shadow?: boolean | undefined;
 }
 
@@ -124,47 +127,58 @@ export interface DirectionalLight {
 export interface PointLight {
     kind: "point";
     position: Vector3;
+    /** The colour of the light; white by default. */
     color?: Color | undefined;
+    /** Whether objects cast shadows from this light; for one light at most. */
     shadow?: boolean | undefined;
 }
 
-/** A light that shines into a cone about `direction`; its angles are in degrees, 0..180. */
+/** A light that shines into a cone about `direction`; its angles are in degrees. */
 export interface SpotLight {
     kind: "spot";
     position: Vector3;
     direction: Vector3;
+    /** The colour of the light; white by default. */
     color?: Color | undefined;
-    /** Up to which its light is full; 0 by default. */
+    /** Degrees from the axis of a spot light, within which its light is full, as in glTF, 0..180; 0 by default. */
     innerAngle?: number | undefined;
-    /** At which its light ends; 45 by default. */
+    /** Degrees from the axis of a spot light, outside of which there is none of its light, 0..180; 45 by default. */
     outerAngle?: number | undefined;
+    /** Whether objects cast shadows from this light; for one light at most. */
     shadow?: boolean | undefined;
 }
 
-export type Light = DirectionalLight | PointLight | SpotLight;
-
-/** A vertical gradient; `bottom` is the colour of the top by default. */
+/** A vertical gradient. */
 export interface Background {
+    /** The colour of the top row; black by default. */
     top?: Color | undefined;
+    /** The colour of the bottom row; as top by default. */
     bottom?: Color | undefined;
 }
 
-/** Light from above (+y) and below, in proportion to the ambient coefficients; `ground` is black by default. */
+/** Light from above (+y) and below, in proportion to the ambient coefficients. */
 export interface Hemisphere {
+    /** The colour of the light from above. */
     sky: Color;
+    /** The colour of the light from below; black by default. */
     ground?: Color | undefined;
 }
 
-/** Light along the outlines of objects; `power` is a whole number from 1, wide, to 16, narrow, by default 3. */
+/** Light along the outlines of objects. */
 export interface Rim {
+    /** The colour of the light. */
     color: Color;
+    /** From a wide rim to a narrow one, 1..16; 3 by default. */
     power?: number | undefined;
 }
 
-/** Fog between two distances along the line of sight: where it begins, and where it hides everything. */
+/** Fog between two distances along the line of sight. */
 export interface Fog {
+    /** The colour of the fog. */
     color: Color;
+    /** The distance at which it begins, at least 0. */
     near: number;
+    /** That at which it hides everything, at least 0. */
     far: number;
 }
 
@@ -180,14 +194,15 @@ export interface Tone {
 
 /** A level, matte disc under the objects, which receives shadows and fades into the background. */
 export interface Ground {
+    /** The colour of the ground. */
     color: Color;
     /** Its y in the world; just below the lowest vertex by default. */
     height?: number | undefined;
-    /** Where nothing is left of it, above 0; a multiple of the size of the objects by default. */
+    /** Where nothing is left of it, above 0; 2.25 times half the diagonal of the objects by default. */
     radius?: number | undefined;
     /** Its x and z in the world; the middle of the objects by default. */
     center?: readonly [number, number] | undefined;
-    /** Where it begins to fade, at least 0 and below the radius; 0.4 of the radius by default. */
+    /** Where it begins to fade, below the radius; 0.4 of the radius by default. */
     inner?: number | undefined;
 }
 
@@ -207,7 +222,7 @@ export interface Scene {
     ambientLight?: Color | undefined;
     /** Whether each byte v of the picture becomes 255 - v. */
     invert?: boolean | undefined;
-    /** Whether edges are smoothed, by four samples per pixel. */
+    /** Whether to smooth the edges with four samples per pixel. */
     antialias?: boolean | undefined;
     /** Scenes with one of the following are always antialiased. */
     hemisphere?: Hemisphere | undefined;
@@ -217,13 +232,8 @@ export interface Scene {
     ground?: Ground | undefined;
     /** In pixels, 1..2048; 128 by default. */
     width?: number | undefined;
+    /** In pixels, 1..2048; 128 by default. */
     height?: number | undefined;
 }
 
-/** A part of the canvas, in pixels from the top left corner. */
-export interface Rectangle {
-    x: number;
-    y: number;
-    width: number;
-    height: number;
-}
+export type Light = DirectionalLight | PointLight | SpotLight;

@@ -2,6 +2,7 @@
 
 import { add, boundsOf, cross, dot, largest, rowOf, subtract, times, type Vector } from "./arithmetic.js";
 import { checkedMesh, type Mesh } from "./checked.js";
+import * as constant from "./constants.js";
 import { remembered } from "./memory.js";
 import { areaNormals } from "./mesh.js";
 import { Parts, balances, edgesOf, facesOfAll, isBalanced, pointsOf } from "./topology.js";
@@ -12,13 +13,6 @@ export interface Part {
     mesh: Mesh;
     isOpaque: boolean;
 }
-
-/** A part is split if so many of its faces are closed: what culling saves is then more than another object costs. */
-const SPLIT_FACES = 32;
-/** Parts whose volume is a smaller share of that of the pyramids of their faces have no inside: doubled sheets. */
-const NO_VOLUME = 1e-6;
-/** Hollows are looked for in so many of the largest parts. */
-const MOST_OUTER = 1000;
 
 /**
  * Return the parts of a model with closed pieces wound outward, and with `cull` for those of closed pieces only; and how
@@ -40,7 +34,7 @@ export function wound<P extends Part>(
         const own = pieces.slice(begin, (begin += part.mesh.faces.length / 3));
         const mesh = turned(part.mesh, own);
         const closed = own.filter((piece) => piece.isClosed).length;
-        if (!split || !part.isOpaque || closed < SPLIT_FACES || closed === own.length) {
+        if (!split || !part.isOpaque || closed < constant.SPLIT_FACES || closed === own.length) {
             return [{ ...part, mesh, cull: closed === own.length }];
         }
         return [true, false].map((cull) => {
@@ -114,12 +108,12 @@ function piecesOf(positions: Float64Array, faces: Uint32Array): Piece[] {
 
 /** Mark the closed pieces that are inside out, but for those that may be the walls of hollows in others. */
 function markInverted(pieces: Piece[]): void {
-    const inverted = pieces.filter(({ isClosed, volume, most }) => isClosed && volume < -NO_VOLUME * most);
+    const inverted = pieces.filter(({ isClosed, volume, most }) => isClosed && volume < -constant.NO_VOLUME * most);
     if (!inverted.length) return;
     const key = ({ isClosed, volume }: Piece): number => (isClosed ? -volume : 0);
     const outer = [...pieces]
         .sort((one, other) => key(one) - key(other))
-        .slice(0, MOST_OUTER)
+        .slice(0, constant.MOST_OUTER)
         .filter(({ volume }) => volume > 0);
     for (const piece of inverted) {
         const isIn = ({ low, high }: Piece): boolean =>
@@ -212,5 +206,5 @@ export const solidOf = remembered(({ positions, faces }: Mesh): Solid => {
 export function isClosed(mesh: Mesh): boolean {
     const { isClosed, volume, area, radius } = solidOf(mesh);
     // doubled sheets have a volume of rounding only
-    return isClosed && volume > NO_VOLUME * area * radius;
+    return isClosed && volume > constant.NO_VOLUME * area * radius;
 }

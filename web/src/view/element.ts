@@ -1,14 +1,17 @@
 // The custom element <shackled-view>.
 
 import { InputError } from "../errors.js";
+import { Scheduler, type Job, type Plan } from "../draw/scheduler.js";
+import type { Size } from "../draw/speed.js";
 import { fetchBytes, loadAssets, type Assets, type AssetSources } from "../evm/assets.js";
 import { MAX_SIDE } from "../scene/checked.js";
 import type { CallFacts } from "../turn.js";
-import { Client, Interrupted } from "./client.js";
+import script from "worker:view/worker.ts";
+import { Pool, started } from "../workers/pool.js";
+import { Cancelled } from "../workers/protocol.js";
 import { listen, type Change } from "./gestures.js";
-import type { Checked, Drawn, Source, Wish } from "./protocol.js";
-import { MAX_FILE } from "./source.js";
-import { Speed, type Size } from "./speed.js";
+import type { Checked, Drawn, Requests, Source, Wish } from "./protocol.js";
+import { MAX_FILE } from "../scene/call_file.js";
 import { STYLE } from "./style.js";
 
 /** What the event `turn` tells: degrees, and a factor. */
@@ -27,14 +30,10 @@ export interface PictureDetail {
 
 const START: Change = { azimuth: 0, elevation: 0, zoom: 1 };
 const MAX_ZOOM = 50;
-/** Milliseconds without movement, after which the picture at rest is drawn. */
-const REST = 160;
 /** Milliseconds, by an estimate that is usually far too high, above which the picture at rest is not larger than the call's. */
 const PATIENCE = 15_000;
 /** Where the place of the picture has become so many times larger, it is drawn again. */
 const ENLARGED = 1.2;
-/** A picture at rest that takes longer than this is given up when the viewer moves. */
-const INTERRUPT = 60;
 /** Milliseconds in which the speed of a drag that was let go falls to a third, and the speed at which it ends. */
 const INERTIA = 160;
 const SLOWEST = 0.01;
@@ -66,20 +65,30 @@ export class ShackledView extends HTMLElement {
     #turn: Change = { ...START };
     #picture: (PictureDetail & { pixels: Uint8ClampedArray<ArrayBuffer> }) | null = null;
 
-    #client: Client | null = null;
+    /** One worker draws; another one asks nodes. */
+    readonly #workers = new Pool<Requests, "draw" | "check">(
+        {
+            start: () => started(script),
+            supplies: async (_, __, [lacks]) =>
+                new Map<string, unknown>([lacks ? ["call", this.#call] : ["evm", await this.#assets()]]),
+        },
+        { draw: 1, check: 1 },
+    );
+    /** Whether it was seen: pictures that nobody sees cost nothing. */
+    #isSeen = false;
+    /** Ends what is asked of the scene that is shown. */
+    #asked = new AbortController();
     #connected: AbortController | null = null;
-    #speed = new Speed();
-    /** Increases with every scene; what belongs to an earlier one is dropped. */
-    #generation = 0;
-    /** The size of all frames of a movement; null at rest. */
-    #moving: Size | null = null;
-    #held = false;
-    #dirty = false;
-    #drawing: Wish | null = null;
+    readonly #scheduler = new Scheduler<TurnDetail, Drawn>({
+        beginsSmall: false,
+        value: () => (this.#facts ? this.#turn : null),
+        plan: () => this.#plan(),
+        draw: (turn, job, signal) => this.#draw(turn, job, signal),
+        show: (_, job, drawn) => this.#show(job, drawn),
+        fail: (_, error) => this.#fail(error),
+    });
     #queued = false;
-    #opening = false;
     #checking = false;
-    #rest = 0;
     #inertia = 0;
 
     constructor() {
@@ -105,22 +114,20 @@ export class ShackledView extends HTMLElement {
 
     set call(call: Uint8Array) {
         if (!(call instanceof Uint8Array)) throw new InputError("call must be a Uint8Array");
-        this.#show({ file: new Uint8Array(call) });
+        this.#take({ file: new Uint8Array(call) });
     }
 
     /** Show a scene file: its JSON as text, or as a value. */
     set scene(scene: string | object) {
         const text = typeof scene === "string" ? scene : JSON.stringify(scene);
-        this.#show({ file: new TextEncoder().encode(text) });
+        this.#take({ file: new TextEncoder().encode(text) });
     }
 
     /** Show the scene of a file: the bytes of a call, a scene file, or a PNG file that Shackled wrote. */
     async open(file: Blob): Promise<void> {
-        if (file.size > MAX_FILE) {
-            this.#fail(`a file must have up to ${MAX_FILE.toLocaleString("en")} bytes`);
-            return;
-        }
-        this.#show({ file: new Uint8Array(await file.arrayBuffer()) });
+        if (file.size > MAX_FILE)
+            return this.#fail(new InputError(`a file must have up to ${MAX_FILE.toLocaleString("en")} bytes`));
+        this.#take({ file: new Uint8Array(await file.arrayBuffer()) });
     }
 
     /** From where the scene is seen: degrees to the right and upward, and a factor. */
@@ -130,8 +137,7 @@ export class ShackledView extends HTMLElement {
 
     set turn(turn: Partial<TurnDetail>) {
         cancelAnimationFrame(this.#inertia);
-        if (this.#facts) this.#move(() => this.#face({ ...START, ...turn }));
-        else this.#face({ ...START, ...turn });
+        this.#face({ ...START, ...turn });
     }
 
     /** The last picture at rest, with the contract's own pixels in RGBA; null before there is one. */
@@ -142,7 +148,7 @@ export class ShackledView extends HTMLElement {
     /** See the scene as its call does. */
     reset(): void {
         cancelAnimationFrame(this.#inertia);
-        this.#move(() => this.#face(START));
+        if (this.#facts) this.#face(START);
     }
 
     /** Have a node compute the same picture, and compare all bytes. url: of its JSON-RPC. The element shows the outcome. */
@@ -154,13 +160,19 @@ export class ShackledView extends HTMLElement {
             else delete outcome.dataset["outcome"];
         };
         let checked: Checked = { outcome: "unknown", message: "There is no picture to check." };
-        if (this.#client && this.#facts && !this.#checking) {
+        if (this.#call && this.#facts && !this.#checking) {
             show(null);
             this.#checking = send.disabled = true;
             try {
-                checked = await this.#client.ask("check", { url, wish: this.#wish(1) }, CHECK_TIMEOUT);
+                const { width, height } = this.#facts;
+                const wish = { turn: this.#turn, width, height, samples: 1, hashed: false } as const;
+                checked = await this.#workers.ask("check", { url, wish, call: this.#call }, "check", {
+                    signal: this.#asked.signal,
+                    limit: CHECK_TIMEOUT,
+                });
             } catch (error) {
-                checked = { outcome: "unknown", message: `The check was interrupted: ${messageOf(error)}.` };
+                const why = error instanceof Cancelled ? "the scene changed" : messageOf(error);
+                checked = { outcome: "unknown", message: `The check was interrupted: ${why}.` };
             } finally {
                 this.#checking = send.disabled = false;
             }
@@ -193,17 +205,16 @@ export class ShackledView extends HTMLElement {
         const sizes = new ResizeObserver(() => {
             const { canvas, stage } = this.#parts;
             const [shown, place] = [canvas.width, stage.clientWidth * devicePixelRatio];
-            const resting = this.#picture && !this.#drawing && !this.#moving && !this.hasAttribute("exact");
-            if (resting && place > ENLARGED * shown) this.#settle();
+            const isSmall = this.#picture && !this.hasAttribute("exact") && place > ENLARGED * shown;
+            if (isSmall && this.#scheduler.isResting) this.#scheduler.again();
         });
         sizes.observe(stage);
-        // pictures that nobody sees cost nothing
         const observer = new IntersectionObserver(
             (entries) => {
                 if (!entries.some((entry) => entry.isIntersecting)) return;
                 observer.disconnect();
-                this.#client = new Client(() => this.#assets());
-                if (this.#source) void this.#open(this.#client, this.#source);
+                this.#isSeen = true;
+                if (this.#source) void this.#open(this.#source);
                 else this.#load();
             },
             { rootMargin: "200px" },
@@ -218,13 +229,12 @@ export class ShackledView extends HTMLElement {
     disconnectedCallback(): void {
         this.#connected?.abort();
         this.#connected = null;
-        this.#generation++;
-        clearTimeout(this.#rest);
         cancelAnimationFrame(this.#inertia);
-        this.#client?.stop();
-        this.#client = null;
-        this.#drawing = this.#moving = null;
-        this.#opening = false;
+        this.#isSeen = false;
+        this.#facts = null;
+        this.#asked.abort();
+        this.#scheduler.stop();
+        this.#workers.stop();
     }
 
     attributeChangedCallback(name: string, before: string | null, after: string | null): void {
@@ -232,7 +242,7 @@ export class ShackledView extends HTMLElement {
         if (name === "label") stage.setAttribute("aria-label", after || "3D scene");
         if (name === "exact") {
             exact.setAttribute("aria-pressed", String(after !== null));
-            if ((before === null) !== (after === null)) this.#settle();
+            if ((before === null) !== (after === null)) this.#scheduler.again();
         }
         if (name === "rpc" && after) this.#parts.url.value = after;
         if (SOURCES.includes(name) && before !== after) {
@@ -249,17 +259,17 @@ export class ShackledView extends HTMLElement {
 
     /** Begin with what the attributes name. */
     #load(): void {
-        if (!this.#client || this.#source) return;
+        if (!this.#isSeen || this.#source) return;
         const [src, rpc, studio, pointer] = SOURCES.map((name) => this.getAttribute(name)) as (string | null)[];
         if (src) {
-            const generation = ++this.#generation;
+            const { signal } = this.#next();
             const url = src.startsWith("#") ? src : new URL(src, document.baseURI).href;
-            fetchBytes(url, MAX_FILE, "the scene", this.#connected?.signal).then(
-                (file) => generation === this.#generation && this.#show({ file }),
-                (error: unknown) => generation === this.#generation && this.#fail(messageOf(error)),
+            fetchBytes(url, MAX_FILE, "the scene", signal).then(
+                (file) => signal.aborted || this.#take({ file }),
+                (error: unknown) => signal.aborted || this.#fail(error),
             );
         } else if (rpc && studio && pointer) {
-            this.#show({ rpc, studio, pointer });
+            this.#take({ rpc, studio, pointer });
         }
     }
 
@@ -297,40 +307,41 @@ export class ShackledView extends HTMLElement {
     }
 
     /** Show another scene. */
-    #show(source: Source): void {
+    #take(source: Source): void {
         this.#source = source;
         this.#turn = { ...START };
         this.#parts.reset.hidden = true;
-        if (this.#client) void this.#open(this.#client, source);
+        if (this.#isSeen) void this.#open(source);
     }
 
-    async #open(client: Client, source: Source): Promise<void> {
-        const generation = ++this.#generation;
+    /** End what belongs to the scene before. */
+    #next(): AbortController {
+        this.#asked.abort();
+        return (this.#asked = new AbortController());
+    }
+
+    async #open(source: Source): Promise<void> {
+        const { signal } = this.#next();
         cancelAnimationFrame(this.#inertia);
-        clearTimeout(this.#rest);
-        if (this.#drawing || this.#opening) client.stop();
-        this.#drawing = this.#moving = null;
-        this.#opening = true;
         this.#facts = this.#call = this.#picture = null;
-        this.#speed = new Speed();
+        this.#turn = { ...this.#turn };
+        this.#scheduler.stop();
+        this.#scheduler.forget();
         this.#clearOutcome();
         this.#busy(true);
         this.#say("");
         try {
-            const { call, facts } = await client.ask("open", source, "file" in source ? this.#timeout : CHECK_TIMEOUT);
-            if (generation !== this.#generation) return;
-            this.#opening = false;
-            client.call = this.#call = call;
-            this.#facts = facts;
-            const { azimuth, elevation, zoom } = this.#turn;
-            if (azimuth || elevation || zoom !== 1) this.#face(this.#turn);
+            const limit = "file" in source ? this.#timeout : CHECK_TIMEOUT;
+            const { call, facts } = await this.#workers.ask("open", source, "draw", { signal, limit });
+            if (signal.aborted) return;
+            [this.#call, this.#facts] = [call, facts];
             this.#parts.canvas.style.aspectRatio = `${facts.width} / ${facts.height}`;
-            await this.#drawAtRest();
+            const { azimuth, elevation, zoom } = this.#turn;
+            if (azimuth || elevation || zoom !== 1) this.#face(this.#turn, true);
+            this.#scheduler.wake();
         } catch (error) {
-            if (generation !== this.#generation) return;
-            this.#opening = false;
-            this.#fail(messageOf(error), error);
-            if (this.#picture) return;
+            if (signal.aborted) return;
+            this.#fail(error);
             // nothing of the scene before it remains
             const { canvas, poster, bar, panel, more } = this.#parts;
             canvas.hidden = bar.hidden = panel.hidden = true;
@@ -349,10 +360,9 @@ export class ShackledView extends HTMLElement {
     #change(change: Partial<Change>, held: boolean): void {
         cancelAnimationFrame(this.#inertia);
         if (!this.#facts) return;
-        this.#held = held;
         const { azimuth = 0, elevation = 0, zoom = 1 } = change;
-        if (!azimuth && !elevation && zoom === 1) return;
-        this.#move(() => this.#turnBy(azimuth, elevation, zoom));
+        if (azimuth || elevation || zoom !== 1) this.#turnBy(azimuth, elevation, zoom);
+        if (held) this.#scheduler.hold(true);
     }
 
     #turnBy(azimuth: number, elevation: number, zoom: number): void {
@@ -362,17 +372,17 @@ export class ShackledView extends HTMLElement {
 
     /** Go on for a moment at the speed at which the scene was let go. */
     #release(speed: { azimuth: number; elevation: number }): void {
-        this.#held = false;
-        if (!this.#moving) return;
-        this.#settle();
-        if (matchMedia("(prefers-reduced-motion: reduce)").matches) return;
+        const isStill = matchMedia("(prefers-reduced-motion: reduce)").matches;
+        const glides = !isStill && Math.hypot(speed.azimuth, speed.elevation) >= SLOWEST;
+        this.#scheduler.hold(false, glides);
+        if (!glides) return;
         let last = performance.now();
         let { azimuth, elevation } = speed;
         const step = (now: number): void => {
             const time = Math.max(now - last, 0);
             last = now;
             if (Math.hypot(azimuth, elevation) < SLOWEST) return;
-            this.#move(() => this.#turnBy(azimuth * time, elevation * time, 1));
+            this.#turnBy(azimuth * time, elevation * time, 1);
             const decay = Math.exp(-time / INERTIA);
             azimuth *= decay;
             elevation *= decay;
@@ -387,8 +397,8 @@ export class ShackledView extends HTMLElement {
         delete this.#parts.outcome.dataset["outcome"];
     }
 
-    /** Take a turn, within its range. */
-    #face({ azimuth, elevation, zoom }: Change): void {
+    /** Take a turn, within its range, and draw frames until the viewer rests. */
+    #face({ azimuth, elevation, zoom }: Change, atRest = false): void {
         const [low, high] = this.#facts?.elevations ?? [-90, 90];
         const clamp = (value: number, least: number, most: number): number => Math.min(Math.max(value, least), most);
         if (![azimuth, elevation, zoom].every(Number.isFinite)) throw new InputError("turn must consist of numbers");
@@ -402,109 +412,45 @@ export class ShackledView extends HTMLElement {
         reset.hidden = !(this.#turn.azimuth || this.#turn.elevation || this.#turn.zoom !== 1);
         this.#clearOutcome();
         this.dispatchEvent(new CustomEvent<TurnDetail>("turn", { detail: this.turn, bubbles: true, composed: true }));
-    }
-
-    /** Change the turn, and draw frames of one size until the viewer rests. */
-    #move(change: () => void): void {
-        if (!this.#facts) return;
-        change();
-        if (!this.#moving) {
-            this.#moving = this.#speed.movingSize([this.#facts.width, this.#facts.height], this.#shownSize());
-            this.#parts.stage.dataset["moving"] = "";
-            const wish = this.#drawing;
-            const slow = wish && this.#speed.predict(wish.width * wish.height * wish.samples ** 2) > INTERRUPT;
-            if (slow && !this.#checking) {
-                this.#client?.stop();
-                this.#drawing = null;
-            }
-        }
-        this.#dirty = true;
-        this.#settle();
-        void this.#drawFrames();
-    }
-
-    /** Draw the picture at rest, once the viewer has not moved for a moment. */
-    #settle(): void {
-        clearTimeout(this.#rest);
-        this.#rest = window.setTimeout(() => {
-            if (this.#held) return;
-            if (this.#drawing) {
-                this.#settle();
-                return;
-            }
-            this.#moving = null;
-            delete this.#parts.stage.dataset["moving"];
-            void this.#drawAtRest().catch((error: unknown) => this.#fail(messageOf(error), error));
-        }, REST);
-    }
-
-    async #drawFrames(): Promise<void> {
-        if (this.#drawing) return;
-        try {
-            while (this.#dirty && this.#moving) {
-                this.#dirty = false;
-                const [width, height] = this.#moving;
-                const drawn = await this.#draw({ ...this.#wish(1), width, height });
-                if (!drawn || !this.#moving) return;
-                this.#paint(drawn, this.hasAttribute("exact"));
-                const { milliseconds } = drawn;
-                this.dispatchEvent(new CustomEvent("frame", { detail: { width, height, milliseconds } }));
-            }
-        } catch (error) {
-            this.#fail(messageOf(error), error);
-        }
+        if (!this.#facts || atRest) return;
+        this.#parts.stage.dataset["moving"] = "";
+        this.#scheduler.moved();
     }
 
     // ---- pictures ----
 
-    #wish(samples: 1 | 2): Wish {
-        const { width, height } = this.#facts ?? { width: 0, height: 0 };
-        return { turn: { ...this.#turn }, width, height, samples, hashed: false };
-    }
-
-    /** Return a picture; null if it was given up for another. */
-    async #draw(wish: Wish): Promise<Drawn | null> {
-        const [client, generation] = [this.#client, this.#generation];
-        if (!client) return null;
-        this.#drawing = wish;
-        try {
-            const drawn = await client.ask("draw", wish, this.#timeout);
-            if (generation !== this.#generation) return null;
-            this.#speed.add(wish.width * wish.height * wish.samples ** 2, drawn.milliseconds);
-            return drawn;
-        } catch (error) {
-            if (error instanceof Interrupted) return null;
-            throw error;
-        } finally {
-            if (this.#drawing === wish) this.#drawing = null;
-        }
-    }
-
-    /** Draw the contract's own pixels, and where they are not to be shown at the end, the mean of four for each. */
-    async #drawAtRest(): Promise<void> {
-        if (!this.#facts || this.#drawing) return;
-        this.#busy(true);
-        const { width, height } = this.#facts;
-        const drawn = await this.#draw({ ...this.#wish(1), hashed: true });
-        if (!drawn || this.#moving) return;
-        const { gas, milliseconds, sha256, pixels } = drawn;
-        const first = !this.#picture;
+    /** The contract's own pixels, and, unless these are to be shown, the mean of four for each. */
+    #plan(): Plan {
+        const { width, height } = this.#facts as CallFacts;
         const shown = this.#shownSize();
-        const smooth = !this.hasAttribute("exact") && 2 * Math.max(...shown) <= MAX_SIDE;
-        this.#picture = { gas, width, height, milliseconds, sha256, pixels };
-        // the smooth picture may take seconds: until then, what is finer than the last frame of the movement is shown
-        if (first || !smooth || this.#parts.canvas.width < width) this.#paint(drawn, this.hasAttribute("exact"));
-        this.#say("");
-        this.#report(this.#picture, smooth ? shown : null);
-        if (smooth) {
-            const [width, height] = shown;
-            const finer = await this.#draw({ ...this.#wish(2), width, height });
-            if (!finer || this.#moving) return;
-            this.#paint(finer, false);
-        }
-        this.#busy(false);
-        // the first picture was slow, since the browser had not compiled the EVM yet: measure the speed of movements
-        if (first) await this.#draw(this.#wish(1));
+        const isExact = this.hasAttribute("exact") || 2 * Math.max(...shown) > MAX_SIDE;
+        const exact = { size: [width, height], samples: 1 } as const;
+        return { exact, finer: isExact ? null : { size: shown, samples: 4 }, share: 1, isPlain: false };
+    }
+
+    async #draw(turn: TurnDetail, { stage, size: [width, height] }: Job, signal: AbortSignal): Promise<Drawn> {
+        if (stage !== "draft") delete this.#parts.stage.dataset["moving"];
+        if (stage === "exact") this.#busy(true);
+        const wish: Wish = { turn, width, height, samples: stage === "finer" ? 2 : 1, hashed: stage === "exact" };
+        return this.#workers.ask("draw", wish, "draw", { signal, limit: this.#timeout });
+    }
+
+    #show({ stage, size: [width, height] }: Job, drawn: Drawn): void {
+        const { gas, milliseconds, sha256, pixels } = drawn;
+        const isExact = this.hasAttribute("exact");
+        const { finer } = this.#plan();
+        if (stage === "draft") {
+            this.#paint(drawn, isExact);
+            this.dispatchEvent(new CustomEvent("frame", { detail: { width, height, milliseconds } }));
+        } else if (stage === "exact") {
+            // the finer picture may take seconds: until then, what is finer than the last frame of the movement is shown
+            const isFiner = !this.#picture || !finer || this.#parts.canvas.width < width;
+            this.#picture = { gas, width, height, milliseconds, sha256, pixels };
+            if (isFiner) this.#paint(drawn, isExact);
+            this.#say("");
+            this.#report(this.#picture, finer?.size ?? null);
+        } else this.#paint(drawn, false);
+        if (stage === (finer ? "finer" : "exact")) this.#busy(false);
     }
 
     #paint({ pixels, width, height }: Drawn, exact: boolean): void {
@@ -528,7 +474,7 @@ export class ShackledView extends HTMLElement {
         const scale = Math.min(wanted, MAX_SIDE / 2 / Math.max(width, height));
         if (scale <= 1) return [width, height];
         const [w, h] = [Math.round(width * scale), Math.round(height * scale)];
-        return this.#speed.predict(4 * w * h) > PATIENCE ? [width, height] : [w, h];
+        return this.#scheduler.predict(4 * w * h) > PATIENCE ? [width, height] : [w, h];
     }
 
     #report(picture: PictureDetail, shown: Size | null): void {
@@ -553,10 +499,10 @@ export class ShackledView extends HTMLElement {
         veil.hidden = !(busy && canvas.hidden);
     }
 
-    #fail(message: string, error?: unknown): void {
-        if (error instanceof Interrupted) return;
+    #fail(error: unknown): void {
+        if (error instanceof Cancelled) return;
+        const message = messageOf(error);
         this.#busy(false);
-        this.#moving = null;
         delete this.#parts.stage.dataset["moving"];
         this.#say(`${message.charAt(0).toUpperCase()}${message.slice(1)}.`);
         this.dispatchEvent(new ErrorEvent("error", { message }));
@@ -631,22 +577,8 @@ function build(root: ShadowRoot) {
     ]);
     root.append(stage, help, bar, error, panel);
     return {
-        canvas,
-        poster,
-        veil,
-        stage,
-        error,
-        figures,
-        reset,
-        exact,
-        more,
-        bar,
-        hash,
-        url,
-        send,
-        form,
-        outcome,
-        panel,
+        ...{ canvas, poster, veil, stage, error, figures, reset, exact },
+        ...{ more, bar, hash, url, send, form, outcome, panel },
     };
 }
 

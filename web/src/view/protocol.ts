@@ -37,17 +37,13 @@ export interface Checked {
 }
 
 export interface Requests {
-    start: [{ module: WebAssembly.Module; contracts: Contracts; call: Uint8Array | null }, null];
     open: [Source, Opened];
     draw: [Wish, Drawn];
-    check: [{ url: string; wish: Wish }, Checked];
-}
-export type Kind = keyof Requests;
-
-export interface Request<K extends Kind = Kind> {
-    id: number;
-    kind: K;
-    value: Requests[K][0];
+    check: [{ url: string; wish: Wish; call: Uint8Array }, Checked];
 }
 
-export type Reply<K extends Kind = Kind> = { id: number } & ({ value: Requests[K][1] } | { error: string });
+/** What a worker keeps: the EVM, and the call of `open`, which another worker may have answered. */
+export interface Supplies {
+    evm: { module: WebAssembly.Module; contracts: Contracts };
+    call: Uint8Array;
+}

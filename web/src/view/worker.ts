@@ -6,17 +6,20 @@ import { NodeError, askNode, readStored } from "../evm/rpc.js";
 import { drawCall, functionOf, hashPixels, withFunction } from "../picture.js";
 import { isTiled } from "../scene/encode.js";
 import { describeCall, resizeCall, turnCall } from "../turn.js";
-import type { Checked, Drawn, Kind, Opened, Request, Requests, Source, Wish } from "./protocol.js";
-import { readFile } from "./source.js";
+import { serve, type Asking } from "../workers/serve.js";
+import type { Checked, Drawn, Opened, Requests, Source, Supplies, Wish } from "./protocol.js";
+import { readFile } from "../scene/call_file.js";
 
-let given: Pick<Requests["start"][0], "module" | "contracts"> | null = null;
+/** Contracts that used so much gas are compiled: all that drew a picture. */
+const BUSY = 1_000_000;
+
+const kept: Partial<Supplies> = {};
 let evm: ContractEvm | null = null;
-let opened: Uint8Array | null = null;
 
 /** Return an EVM with the contracts and nothing else. */
 function newMachine(): ContractEvm {
-    if (!given) throw new InputError("the worker was not started");
-    return new ContractEvm(given.module, given.contracts);
+    if (!kept.evm) throw new InputError("the worker was not started");
+    return new ContractEvm(kept.evm.module, kept.evm.contracts);
 }
 
 /** Return the EVM that draws. */
@@ -34,18 +37,18 @@ async function open(source: Source): Promise<Opened> {
     if (isTiled(functionOf(call) ?? "render")) {
         throw new InputError("the call draws a part of a picture: give one of render, which draws the whole");
     }
-    opened = withFunction(call, "render");
+    kept.call = withFunction(call, "render");
     return { call: withFunction(call, "render"), facts };
 }
 
 /** Return the call that draws a wish; at its own size, without a turn, the bytes that were opened. */
-function callOf({ turn, width, height, samples }: Wish): Uint8Array {
-    if (!opened) throw new InputError("there is no scene");
+function callOf(opened: Uint8Array, { turn, width, height, samples }: Wish): Uint8Array {
     return resizeCall(turnCall(opened, turn), width * samples, height * samples);
 }
 
-async function draw(wish: Wish): Promise<Drawn> {
-    const call = callOf(wish);
+async function draw(wish: Wish, { need }: Asking): Promise<Drawn> {
+    if (!kept.call) await need(["call"]);
+    const call = callOf(kept.call as Uint8Array, wish);
     const begin = performance.now();
     const picture = drawCall(machine(), call);
     const milliseconds = performance.now() - begin;
@@ -70,8 +73,8 @@ function halved(pixels: Uint8ClampedArray, width: number): Uint8ClampedArray<Arr
     return result;
 }
 
-async function check({ url, wish }: Requests["check"][0]): Promise<Checked> {
-    const call = callOf(wish);
+async function check({ url, wish, call: opened }: Requests["check"][0]): Promise<Checked> {
+    const call = callOf(opened, wish);
     const { contracts } = machine();
     try {
         const asked = await askNode(url, call, contracts);
@@ -93,25 +96,5 @@ async function check({ url, wish }: Requests["check"][0]): Promise<Checked> {
     }
 }
 
-const handlers: { [K in Kind]: (value: Requests[K][0]) => Promise<Requests[K][1]> | Requests[K][1] } = {
-    start: ({ module, contracts, call }) => {
-        given = { module, contracts };
-        opened = call;
-        return null;
-    },
-    open,
-    draw,
-    check,
-};
-
-async function answer<K extends Kind>({ id, kind, value }: Request<K>): Promise<void> {
-    try {
-        const result = await handlers[kind](value);
-        const transfer = result && "pixels" in result ? [result.pixels.buffer] : [];
-        self.postMessage({ id, value: result }, { transfer });
-    } catch (error) {
-        self.postMessage({ id, error: error instanceof Error ? error.message : String(error) });
-    }
-}
-
-self.onmessage = ({ data }: MessageEvent<Request>) => void answer(data);
+const keep = (key: string, value: unknown): void => void Object.assign(kept, { [key]: value });
+serve<Requests>({ open, draw, check }, keep, () => evm?.compile(BUSY));

@@ -7,6 +7,7 @@ import {Triangles} from "./Triangles.sol";
 import {VertexShader} from "./VertexShader.sol";
 import "../../words/Registers.sol";
 
+// Computes `clipped` of picture.py, at five planes.
 // Triangles that leave the guard band or reach behind the near plane are clipped, in homogeneous coordinates, before the perspective
 // division. Source: I. Sutherland, G. Hodgman, "Reentrant polygon clipping", Communications of the ACM 17 (1974).
 //

@@ -6,6 +6,8 @@ import {SceneErrors} from "../../scene/SceneErrors.sol";
 import {Triangles} from "./Triangles.sol";
 import "../../words/Registers.sol";
 
+// Checks the faces of `object_of` of picture.py.
+
 /// @dev Lanes of 32 bits: the lowest bit, and the lower half of each.
 uint256 constant LOW_32 = 0x0000000100000001000000010000000100000001000000010000000100000001;
 uint256 constant LOW_16 = 0x0000ffff0000ffff0000ffff0000ffff0000ffff0000ffff0000ffff0000ffff;

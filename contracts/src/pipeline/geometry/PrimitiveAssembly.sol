@@ -7,6 +7,7 @@ import {Rasterizer} from "./Rasterizer.sol";
 import {ALL_EDGES, Triangles} from "./Triangles.sol";
 import "../../words/Registers.sol";
 
+// Computes `triangles` of picture.py.
 // Assembles the triangles to draw from vertices and faces: those that face the viewer, or all if both sides are visible. If the depths of
 // the whole tile fit one band, each triangle is drawn immediately. Otherwise, and for lines and after clipping, it is listed: see
 // Triangles. The first vertex is the topmost, and the vertices are counter-clockwise on the screen.

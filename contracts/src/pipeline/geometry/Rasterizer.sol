@@ -4,6 +4,7 @@ pragma solidity 0.8.37;
 import {WIREFRAME} from "../../scene/Scene.sol";
 import "../../words/Registers.sol";
 
+// Computes `fill` of picture.py.
 // Rasterizes triangles to fragments: PixelRasterizer samples pixel centres, SampleRasterizer four samples per pixel.
 //
 // Each engine implements the shading of triangles: see Engine and FragmentEngine.

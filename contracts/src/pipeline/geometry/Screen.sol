@@ -3,6 +3,7 @@ pragma solidity 0.8.37;
 
 import "../../words/Registers.sol";
 
+// Reads what `Camera.project` and `Camera.nearness` of picture.py return.
 // Reads screen words: see SCREEN_ in Words.sol. Columns and rows are in sub-pixels.
 
 function columnOf(uint256 screenWord) pure returns (int256) {

@@ -4,6 +4,7 @@ pragma solidity 0.8.37;
 import {doubleAreaOf} from "./Screen.sol";
 import "../../words/Registers.sol";
 
+// Lists what `triangles` of picture.py yields.
 // A triangle of a list, in one word: see TRIANGLE_ in Words.sol.
 //
 // The first vertex is the topmost, and the vertices are counter-clockwise on the screen.

@@ -4,6 +4,7 @@ pragma solidity 0.8.37;
 import {Mesh} from "../../scene/Mesh.sol";
 import "../../words/Registers.sol";
 
+// Computes `Camera.project` and `Camera.nearness` of picture.py.
 // Transforms vertices from the mesh to the screen. Each vertex becomes a record in memory:
 //
 //   +0x00  screen word: sub-pixel row and column, flags, address of the record

@@ -7,6 +7,7 @@ import {Pipeline} from "../Pipeline.sol";
 import {PixelRasterizer} from "./PixelRasterizer.sol";
 import "../../words/Registers.sol";
 
+// Stores the depths of `fill` of picture.py.
 // The depth buffer of a band: 8 bytes for each pixel, rows as in the picture.
 abstract contract DepthBuffer is Pipeline, PixelRasterizer {
     function openPicture(Rectangle memory tile, uint256 image, uint256 bandRows, uint256[3][] memory)

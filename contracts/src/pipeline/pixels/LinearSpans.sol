@@ -3,6 +3,7 @@ pragma solidity 0.8.37;
 
 import "../../words/Registers.sol";
 
+// Computes `fill` of picture.py where `shade` is linear on the screen.
 // Rows of fragments of triangles whose colours are linear on the screen, for triangles within the tile and the band: most of a picture.
 // For others see Spans.
 

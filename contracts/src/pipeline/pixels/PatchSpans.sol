@@ -6,6 +6,7 @@ import {Patches} from "../shading/Patches.sol";
 import {Spans} from "./Spans.sol";
 import "../../words/Registers.sol";
 
+// Computes `fill` of picture.py where `shade` is replaced by quadratic functions.
 // Rows of fragments whose colours are quadratic functions of the position on the screen: see Patches. Eight fragments at a time, of which
 // each channel is a word of eight values; the last fragment is the lowest in it, so a span is drawn from its right end to the left.
 

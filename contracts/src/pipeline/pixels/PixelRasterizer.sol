@@ -4,6 +4,7 @@ pragma solidity 0.8.37;
 import {Rasterizer} from "../geometry/Rasterizer.sol";
 import "../../words/Registers.sol";
 
+// Computes `fill` of picture.py for one sample per pixel, and `edge_functions` as columns of the edges.
 // Rasterizes triangles to fragments at pixel centres, by a digital differential analyzer.
 //
 // Edges are two columns, Q48, in lanes of 128 bits, such that the integer part is the first pixel whose centre is not left of the edge: the

@@ -3,6 +3,7 @@ pragma solidity 0.8.37;
 
 import "../../words/Registers.sol";
 
+// Computes `fill` and `radiance` of picture.py for smooth triangles with one light.
 // Rows of fragments of smooth triangles with one light: quadratic products, see SmoothTriangle.
 
 library SmoothSpans {

@@ -6,6 +6,7 @@ import {FragmentLight} from "../shading/FragmentLight.sol";
 import {Patches} from "../shading/Patches.sol";
 import "../../words/Registers.sol";
 
+// Computes `fill` of picture.py pixel by pixel, and `draw` where it blends.
 // Rows of fragments that are drawn one by one, with colours of four kinds: linear, in the accumulator; quadratic functions; computed for
 // each fragment; or the same, translucent. The flags that tell the kind are literals, of which the compiler is to make a function for each
 // kind. (They are no numbers to be compared: in a loop, the compiler would compute and keep the results.)

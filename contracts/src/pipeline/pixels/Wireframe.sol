@@ -6,6 +6,7 @@ import {PixelRasterizer} from "./PixelRasterizer.sol";
 import {Wires} from "../shading/Wires.sol";
 import "../../words/Registers.sol";
 
+// Computes `wires` of picture.py for one sample per pixel.
 // Rasterizes the edges of triangles to fragments. A line has one pixel in each column, or in each row if it is steeper than 45 degrees: the
 // pixel nearest to it, with the depth and colour of the line at the centre of that column or row.
 

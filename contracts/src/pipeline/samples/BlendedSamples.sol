@@ -5,6 +5,7 @@ import {ExactSamples} from "./ExactSamples.sol";
 import {Samples} from "./Samples.sol";
 import "../../words/Registers.sol";
 
+// Computes the layers of `draw` of picture.py for translucent objects.
 // Draws translucent objects with four samples per pixel: the two passes of Spans, for each sample.
 
 /// @dev The lowest byte of each sample.

@@ -6,6 +6,7 @@ import {SampleRasterizer} from "./SampleRasterizer.sol";
 import {Samples} from "./Samples.sol";
 import "../../words/Registers.sol";
 
+// Computes `fill` of picture.py with `shade` at each fragment.
 // Shades every fragment individually, at the centroid of the samples that the triangle covers.
 abstract contract ExactSamples is SampleRasterizer {
     function drawExact(uint256 p, uint256 attribute, uint256 covered, uint256 column, uint256 row) internal pure virtual override {

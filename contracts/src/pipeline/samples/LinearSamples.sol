@@ -3,6 +3,7 @@ pragma solidity 0.8.37;
 
 import "../../words/SampleRegisters.sol";
 
+// Computes `fill` of picture.py where `shade` is linear on the screen.
 // Draws triangles whose colour is in the accumulator, with four samples per pixel: see Samples. Most triangles of models are small and
 // linear, so the cost of a row matters as much as that of its pixels.
 

@@ -12,6 +12,7 @@ import {max, min} from "../geometry/Screen.sol";
 import {sqrt} from "../../math/Roots.sol";
 import "../../words/SampleRegisters.sol";
 
+// Computes `shade` of picture.py along `wires`, in linear parts.
 // Draws opaque lines of flat and unlit faces in parts with linear colours: light is computed on the line, at the ends of parts over which
 // it is linear (see Materials). Other lines are drawn by SampleWires, which shades each fragment: those of smooth surfaces, those with spot
 // lights, and those whose colours perspective changes.

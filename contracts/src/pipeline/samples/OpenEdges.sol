@@ -3,6 +3,7 @@ pragma solidity 0.8.37;
 
 import "../../words/SampleRegisters.sol";
 
+// Finds the pixels in which `fill` of picture.py needs all four samples.
 // Silhouettes, borders and creases of smooth objects: the edges that do not lie between two triangles which are drawn. Only pixels that
 // such an edge touches need four samples: they are marked with IS_EDGE before anything is drawn. Every other pixel belongs, with all its
 // samples, to the triangle that covers its first sample. Which rule holds is a property of the pixel, so in each of them the triangles of a

@@ -6,6 +6,7 @@ import {depthOf, max, min} from "../geometry/Screen.sol";
 import {SampleRasterizer} from "./SampleRasterizer.sol";
 import "../../words/SampleRegisters.sol";
 
+// Computes `fill` of picture.py where `shade` is replaced by quadratic functions.
 // Draws triangles with quadratic colours, over the whole triangle or over square cells: see Patches.
 abstract contract PatchSamples is SampleRasterizer {
     /// @dev Sets further registers that quadratic functions need.

@@ -3,6 +3,7 @@ pragma solidity 0.8.37;
 
 import "../../words/SampleRegisters.sol";
 
+// Computes `fill` and `radiance` of picture.py where the light of a triangle is one quadratic function.
 // Draws triangles whose colours are one quadratic function, with four samples per pixel in pixels that open edges touch, and whole pixels
 // elsewhere: see OpenEdges. The colour is that of the pixel centre, in a pixel of which some samples are covered that of their centroid.
 

@@ -8,6 +8,7 @@ import {max, min} from "../geometry/Screen.sol";
 import {SampleRasterizer} from "./SampleRasterizer.sol";
 import "../../words/SampleRegisters.sol";
 
+// Stores the samples of `draw` of picture.py, and computes their mean.
 // A word of four samples for each pixel of a band, rows as in the picture. Only the columns and rows reached by objects are stored, since
 // memory cost grows quadratically.
 //

@@ -6,6 +6,7 @@ import {firstRowOf, max, min} from "../geometry/Screen.sol";
 import {Samples} from "./Samples.sol";
 import "../../words/SampleRegisters.sol";
 
+// Computes `fill` of picture.py for four samples per pixel, and `edge_functions` as columns of the edges.
 // Rasterizes triangles to fragments with four samples per pixel (multisampling). A fragment is a pixel in which a triangle covers at least
 // one sample. Its colour is computed once, its depth for each sample.
 //

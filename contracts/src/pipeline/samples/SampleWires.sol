@@ -9,6 +9,7 @@ import {Samples} from "./Samples.sol";
 import {Wires} from "../shading/Wires.sol";
 import "../../words/SampleRegisters.sol";
 
+// Computes `wires` of picture.py for four samples per pixel.
 // Rasterizes the edges of triangles to fragments of four samples: a line is a rectangle, one pixel wide, as in OpenGL with multisampling.
 //
 // With D from the upper end of the line, p, to the lower one and W from there to the right side of the rectangle, both in whole sub-pixels,

@@ -4,6 +4,7 @@ pragma solidity 0.8.37;
 import {FragmentLight} from "../shading/FragmentLight.sol";
 import "../../words/SampleRegisters.sol";
 
+// Computes the depth test of `fill` of picture.py for the samples of a pixel.
 // Fragments of four samples: see SampleRasterizer. Each lane of a pixel contains a depth and a colour; a nearer fragment replaces both. If
 // all four samples have one colour, it is written to the picture immediately. Other pixels are listed, and their means are written at the
 // end.

@@ -10,6 +10,7 @@ import {SmoothTriangle, STEEP_LIGHT, UNBOUNDED_LIGHT} from "../shading/SmoothTri
 import {SampleRasterizer} from "./SampleRasterizer.sol";
 import "../../words/SampleRegisters.sol";
 
+// Chooses how `shade` of picture.py is computed in a smooth triangle.
 // Smooth surfaces lit by lamps, with four samples per pixel where open edges are: see OpenEdges.
 
 /// @dev Twice the area, in sub-pixels, of 6 pixels, and of 20: below, six nodes cost more than they save at fragments.

@@ -9,6 +9,7 @@ import {EIGHT_ROWS, Shading} from "./Shading.sol";
 import {VertexHighlights} from "./VertexHighlights.sol";
 import "../../words/Registers.sol";
 
+// Chooses how `shade` of picture.py is computed in a flat or unlit triangle.
 // Selects how precisely flat and unlit triangles are shaded.
 
 /// @dev Addend that sets a bit of OVERFLOW in each colour that may exceed 255 at a fragment: half a level, by which fragments are rounded,

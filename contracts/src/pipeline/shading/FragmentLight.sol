@@ -4,6 +4,7 @@ pragma solidity 0.8.37;
 import {sqrtNear} from "../../math/Roots.sol";
 import "../../words/Registers.sol";
 
+// Computes `weights_at` and `radiance` of picture.py, by their formulas.
 // Computes the colour of a triangle at any point: perspective-correct interpolated colours times diffuse light, plus highlights
 // (Blinn-Phong).
 //

@@ -3,6 +3,7 @@ pragma solidity 0.8.37;
 
 import "../../words/Registers.sol";
 
+// Computes `normals` and `radiance` of picture.py for flat faces.
 // Lighting of flat faces.
 
 /// @dev Fraction bits: of positions in mesh space; of the length of a normal and of its square.

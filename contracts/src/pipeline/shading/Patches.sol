@@ -5,6 +5,7 @@ import {ANY, FragmentLight} from "./FragmentLight.sol";
 import {Quadratic} from "./Quadratic.sol";
 import "../../words/Registers.sol";
 
+// Fits quadratic functions to `shade` of picture.py.
 // Flat and unlit triangles whose colours are not linear on the screen: colours are approximated by quadratic functions, fitted to exact
 // colours over the whole triangle or over its square cells. The cells are aligned to the canvas, not to the tile, so that tiles match the
 // whole picture.

@@ -3,6 +3,7 @@ pragma solidity 0.8.37;
 
 import "../../words/Registers.sol";
 
+// Interpolates `shade` of picture.py between six places of a triangle.
 // Quadratic functions of the position on the screen, three in a word, in signed lanes of 85 bits. A smooth function that is interpolated
 // from its values at the corners and edge midpoints of a triangle (the P2 element) has errors of third order only.
 //

@@ -6,6 +6,7 @@ import {WEIGHTED_BIAS} from "./FragmentLight.sol";
 import {Lighting} from "./Lighting.sol";
 import "../../words/Registers.sol";
 
+// Prepares `weights_at` of picture.py: the values of the corners, and their changes.
 // The common parts of triangle shading: the test whether colours can be linear on the screen, and the registers of linear triangles and of
 // those whose fragments are shaded individually.
 

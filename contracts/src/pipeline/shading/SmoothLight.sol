@@ -3,6 +3,7 @@ pragma solidity 0.8.37;
 
 import "../../words/SampleRegisters.sol";
 
+// Interpolates `cosines_of` of picture.py between six places of a triangle.
 // The light of a lamp on smooth triangles of several pixels. The products of SmoothTriangle need a root and two divisions at each fragment;
 // here these are done at six nodes, and what they yield is interpolated: N * H and N * L of unit vectors, Q19, in the lower two of four
 // signed lanes of 64 bits; those of a second lamp are in the other two. Fragments have 34 more bits: coordinates are Q17, LESS_BITS shorter

@@ -8,6 +8,7 @@ import {Shading} from "./Shading.sol";
 import {SmoothTriangle, STEEP_LIGHT, UNBOUNDED_LIGHT} from "./SmoothTriangle.sol";
 import "../../words/Registers.sol";
 
+// Chooses how `shade` of picture.py is computed in a triangle.
 // Selects the shading of triangles whose fragments are lit: smooth surfaces, and all that no other method draws.
 
 /// @dev Prevents colours (Q42) from being rounded below zero: 1/32 of a level.

@@ -4,6 +4,7 @@ pragma solidity 0.8.37;
 import {LIT, OPEN, SmoothVertex} from "./SmoothVertex.sol";
 import "../../words/Registers.sol";
 
+// Computes `cosines_of` of picture.py as quotients of quadratic functions.
 // The light of a single lamp on smooth surfaces. Normals N are interpolated between the vertices, and so are the directions L to the light
 // and the half vectors H between light and eye, which turn little within a triangle. With the barycentric coordinates w and any vectors P,
 // Q

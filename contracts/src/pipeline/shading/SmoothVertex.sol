@@ -4,6 +4,7 @@ pragma solidity 0.8.37;
 import {sqrtNear} from "../../math/Roots.sol";
 import "../../words/Registers.sol";
 
+// Computes what `cosines_of` of picture.py needs of a vertex.
 // The part of a vertex record of a smooth surface that is common to all adjacent triangles, for the light of one lamp: see SmoothTriangle.
 
 /// @dev VERTEX_STATE: LIT if the words of the record are present and bounded, UNBOUNDED if they cannot be used, otherwise 0; and OPEN if

@@ -3,6 +3,7 @@ pragma solidity 0.8.37;
 
 import "../../words/Registers.sol";
 
+// Computes the half vectors of `cosines_of` of picture.py at vertices of flat faces.
 // Computes the highlights of directional lights at the vertices of a flat face.
 //
 // The half vector H = L - V, for unit vectors L to the light and V along the ray, is stored in mesh space, Q32; its dot product with the

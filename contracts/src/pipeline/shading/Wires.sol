@@ -5,6 +5,7 @@ import {SmoothShading} from "./SmoothShading.sol";
 import {depthOf} from "../geometry/Screen.sol";
 import "../../words/Registers.sol";
 
+// Computes `wires` of picture.py: which edges are drawn.
 // Draws the edges of the triangles of objects that are wireframes: Wireframe as pixels, SampleWires as samples. An edge of several faces is
 // drawn once, with the first of those that are drawn.
 

@@ -19,9 +19,10 @@ from ...errors import InputError
 from .._arithmetic import dot, from_euler
 from .._camera import Camera
 from .._effects import Background
+from .._fields import FIELDS
 from .._light import Light
 from .._mesh import Mesh
-from .._object import COEFFICIENTS, Material, Object
+from .._object import Material, Object
 from .._scene import Scene
 from .._staging import MAX_SIDE
 from .table import Table, about
@@ -97,9 +98,9 @@ def _light(lighting: Table) -> tuple[Material, list[Light]]:
     material = Material(
         "flat",
         ambient=1,
-        diffuse=np.clip(diffuse * float(diffuse_color.mean() / hue.mean()), *COEFFICIENTS),
-        specular=np.clip(specular * float(specular_color.max() / 255), *COEFFICIENTS),
-        shininess=round(min(max(lighting.number("inverseShininess", 1), 1), 128)),
+        diffuse=_within("diffuse", diffuse * float(diffuse_color.mean() / hue.mean())),
+        specular=_within("specular", specular * float(specular_color.max() / 255)),
+        shininess=round(_within("shininess", lighting.number("inverseShininess", 1))),
     )
     return material, [Light("directional", vector, hue)]
 
@@ -118,3 +119,8 @@ def _background(keys: Table) -> Background:
         raise InputError(f"backgroundColor must be two colours, the top one and the bottom one, not {len(colors)}")
     with about("backgroundColor"):
         return Background(colors[0].tolist(), colors[1].tolist())
+
+
+def _within(name: str, value: float) -> float:
+    """Return a coefficient of a material within its range."""
+    return float(np.clip(value, *FIELDS["Material"][name].limits))

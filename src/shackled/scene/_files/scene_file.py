@@ -14,25 +14,27 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from attrs import NOTHING, evolve, fields, frozen
+from attrs import evolve, frozen
 from numpy.typing import ArrayLike, NDArray
 
 from ...base.checks import number
 from ...errors import InputError
 from .._arithmetic import IDENTITY, from_axis_angle, from_euler, multiply
-from .._camera import PROJECTIONS, Camera, half_height_in
-from .._crease import CREASES, shaded
+from .._camera import Camera, half_height_in
+from .._crease import shaded
 from .._effects import Background, Fog, Hemisphere, Rim, Tone
+from .._fields import AXES, FIELDS, FILTERS, LIGHT_KINDS, PROJECTIONS, WRAPS
 from .._ground import Ground
-from .._light import LIGHT_KINDS, WHITE, Light, LightKind
+from .._light import Light
 from .._look import view_of
 from .._mesh import Mesh
 from .._object import Material, Object
 from .._scene import Scene
-from .._settings import Kind, ScenePart, exclude, settings_of
+from .._settings import ScenePart, exclude, settings_of
 from .._staging import BACKGROUND, DEFAULT_SIDE, Viewpoint, frame, painted_object, toward_viewer
-from .._texture import FILTERS, WRAPS, Texture
-from .._upright import AXES, axis_of_file, upright
+from .._table import keys_of
+from .._texture import Texture
+from .._upright import axis_of_file, upright
 from .beside import inside
 from .content import format_of, parse, read_text
 from .mesh_file import READERS, read_model
@@ -40,25 +42,13 @@ from .model import MeshPart
 from .original import original_scene
 from .picture import PICTURE, read_picture
 from .table import Table, about
-from .written import MESH, keys_of
 
 SCENES = (".toml", ".json")
 
 _Read = Callable[[Table, str], Any]
 SceneOfPiece = Callable[[str], Scene]
 
-#: `creator`: a table of the Creator, which has no effect here.
-_SCENE = keys_of("scene", "size", "camera", "objects", "tone", "creator")
-_CAMERA = keys_of("camera", "projection")
-_OBJECT = keys_of("object", "mesh", "position", "rotation", "up_axis", "scale", "material", "fade", "crease")
-#: The vectors that a light of each kind must have, and the angles that it may have.
-_LIGHT: dict[LightKind, tuple[tuple[str, ...], tuple[str, ...]]] = {
-    "directional": (("direction",), ()),
-    "point": (("position",), ()),
-    "spot": (("position", "direction"), ("inner_angle", "outer_angle")),
-}
 _PIECE = ("piece", "object")
-_TEXTURE = ("image", "width", "height", "pixels", "filter", "wrap", "alpha", "cutoff")
 _ROTATION = ("quaternion", "axis", "angle")
 
 
@@ -105,14 +95,14 @@ def read_scene(path: str | os.PathLike[str], piece: SceneOfPiece) -> Scene:
 
 def scene_of(document: Mapping[str, Any], sources: Sources) -> Scene:
     """Return the scene of a document whose meshes and images are of these sources."""
-    table = Table(document, "", _SCENE)
-    table.table("creator")
+    table = Table(document, "", keys_of("Scene"))
+    table.table("creator")  # of the Creator: it has no effect here
     width, height = _size(table)
     objects = [each for where, part in table.rows("objects") for each in _objects(part, where, sources)]
-    view, camera = _camera(table.table("camera", _CAMERA), width, height, objects)
+    view, camera = _camera(table.table("camera", keys_of("Camera")), width, height, objects)
     given = {"lights": [toward_viewer(view)], "background": BACKGROUND, **_settings(table, "scene")}
     if "tone" in table:
-        given["tone"] = Tone(**_settings(table.table("tone", keys_of("tone")), "tone"))
+        given["tone"] = Tone(**_settings(table.table("tone", keys_of("Tone")), "tone"))
     return Scene(objects, camera, width=width, height=height, **given)
 
 
@@ -137,40 +127,33 @@ def _size(table: Table) -> tuple[int, int]:
 
 def _background(keys: Table, name: str) -> Any:
     is_table = isinstance(keys.get(name), Mapping)
-    return _effect(Background, keys, name, top=Table.color, bottom=Table.color) if is_table else keys.color(name)
+    return _effect(Background, keys, name) if is_table else keys.color(name)
 
 
-def _effect(kind: type[Any], keys: Table, name: str, **reads: _Read) -> Any:
-    """Return what a table has the fields of; those that it must have are those without a default."""
-    inside = keys.table(name, tuple(reads))
-    needed = {each.name for each in fields(kind) if each.default is NOTHING}
-    given = {name: read(inside, name) for name, read in reads.items() if name in inside or name in needed}
+def _effect(kind: type[Any], keys: Table, name: str) -> Any:
+    """Return what a table has the fields of."""
+    inside = keys.table(name, keys_of(kind.__name__))
+    fields = FIELDS[kind.__name__].items()
+    given = {name: _READ[each.kind](inside, name) for name, each in fields if name in inside or each.needed}
     with about(inside.where):
         return kind(**given)
 
 
 #: How the values of kinds are read, besides their ranges and choices.
-_READ: dict[Kind, _Read] = {
+_READ: dict[str, _Read] = {
     "whole": Table.whole,
     "number": Table.number,
     "vector": lambda keys, name: keys.numbers(name, (0, 0, 0)),
+    "pair": lambda keys, name: keys.numbers(name, (0, 0)),
     "flag": Table.flag,
     "color": Table.color,
     "choice": Table.get,
     "lights": lambda keys, name: [_light(part, where) for where, part in keys.rows(name)],
     "background": _background,
-    "hemisphere": partial(_effect, Hemisphere, sky=Table.color, ground=Table.color),
-    "rim": partial(_effect, Rim, color=Table.color, power=Table.whole),
-    "fog": partial(_effect, Fog, color=Table.color, near=Table.number, far=Table.number),
-    "ground": partial(
-        _effect,
-        Ground,
-        color=Table.color,
-        height=Table.number,
-        radius=Table.number,
-        inner=Table.number,
-        center=lambda keys, name: keys.numbers(name, (0, 0)),
-    ),
+    "hemisphere": partial(_effect, Hemisphere),
+    "rim": partial(_effect, Rim),
+    "fog": partial(_effect, Fog),
+    "ground": partial(_effect, Ground),
 }
 
 
@@ -202,28 +185,27 @@ def _camera(keys: Table, width: int, height: int, objects: list[Object]) -> tupl
 
 def _light(value: object, where: str) -> Light:
     kind = Table(value, where).choice("kind", LIGHT_KINDS)
-    vectors, angles = _LIGHT[kind]
-    keys = Table(value, where, ("kind", *vectors, "color", *angles, "shadow"))
-    for name in vectors:
-        if name not in keys:
+    own = {name: field for name, field in FIELDS["Light"].items() if not field.lights or kind in field.lights}
+    keys = Table(value, where, tuple(own))
+    for name, field in own.items():
+        if field.needed and name not in keys:
             raise InputError(f"{where} must have a {name}, as its kind is {kind}")
-    place, *direction = (keys.numbers(name, (0, 0, 0)) for name in vectors)
-    given: dict[str, Any] = {name: keys.number(name) for name in angles if name in keys}
-    given |= {"color": keys.color("color", WHITE), "shadow": keys.flag("shadow", False)}
+    given = {name: _READ[field.kind](keys, name) for name, field in own.items() if name in keys}
     with about(where):
-        return Light(kind, place, direction=direction[0] if direction else None, **given)
+        return Light(**({"toward": given.pop("direction")} if kind == "directional" else {}), **given)
 
 
 def _objects(value: object, where: str, sources: Sources) -> list[Object]:
     """Return the objects of a table: one, or one for each texture of the mesh file that it names."""
-    keys = Table(value, where, _OBJECT)
+    keys = Table(value, where, keys_of("Object"))
     parts = _parts(keys, where, sources)
     given = _settings(keys, "object")
-    surface = keys.table("material", keys_of("material", "texture"))
+    surface = keys.table("material", keys_of("Material"))
     fields = _settings(surface, "material")
     # a mesh from a file or a piece is given normals, one in the table is as it is
     shading = fields.get("shading", "flat")
-    crease = number(keys.number("crease"), keys.place("crease"), *CREASES) if "crease" in keys else None
+    limits = FIELDS["Object"]["crease"].limits
+    crease = number(keys.number("crease"), keys.place("crease"), *limits) if "crease" in keys else None
     is_inside = isinstance(mesh := keys.get("mesh"), Mapping) and "piece" not in mesh
     if not is_inside or crease is not None:
         fields["shading"] = "flat"
@@ -262,7 +244,7 @@ def _parts(keys: Table, where: str, sources: Sources) -> list[MeshPart]:
         raise InputError(f"{where} needs a mesh: the path of a file, relative to the scene file")
     if isinstance(value, Mapping) and "piece" in value:
         return [MeshPart(_mesh_of_piece(keys.table("mesh", _PIECE), sources))]
-    inside = keys.table("mesh", MESH)
+    inside = keys.table("mesh", keys_of("Mesh"))
     # with alpha if the first row has one
     has_alpha = any(isinstance(row, list) and len(row) == 4 for _, row in inside.rows("colors")[:1])
     with about(inside.where):
@@ -290,7 +272,7 @@ def _mesh_of_piece(keys: Table, sources: Sources) -> Mesh:
 def _texture(surface: Table, sources: Sources) -> Texture:
     """Return a texture: the path of an image, relative to the scene file, or its pixels."""
     keys = Table({"image": value}, "") if isinstance(value := surface.get("texture"), str) else None
-    keys = keys or surface.table("texture", _TEXTURE)
+    keys = keys or surface.table("texture", keys_of("Texture"))
     filter, wrap = keys.choice("filter", FILTERS, FILTERS[1]), keys.choice("wrap", WRAPS, WRAPS[0])
     cutoff = keys.whole("cutoff", 0)
     keys.only_one_of("image", "pixels")

@@ -15,15 +15,8 @@ from .._ground import Ground
 from .._light import Light
 from .._object import Object
 from .._settings import ScenePart, settings_of
+from .._table import keys_of
 from .._texture import Texture
-
-#: The keys of a mesh.
-MESH = ("positions", "faces", "colors", "normals", "uvs", "opacities")
-
-
-def keys_of(part: ScenePart, *before: str) -> tuple[str, ...]:
-    """Return the keys of a part of a scene, with some before them."""
-    return (*before, *(setting.name for setting in settings_of(part)))
 
 
 def encode_document(document: Mapping[str, Any]) -> bytes:
@@ -37,7 +30,7 @@ def _is_given(_: object, value: object) -> bool:
 
 def fields_of(value: object, part: ScenePart) -> dict[str, Any]:
     """Return the settings that are fields of a value and not None; an object has no colour of its own."""
-    fields = {name: getattr(value, name, None) for name in keys_of(part)}
+    fields = {each.name: getattr(value, each.name, None) for each in settings_of(part)}
     return {name: found for name, found in fields.items() if found is not None}
 
 
@@ -56,7 +49,7 @@ def _plain(value: Any) -> Any:
         return asdict(value, filter=_is_given)
     if isinstance(value, Object):
         return {
-            "mesh": {name: part for name in MESH if (part := getattr(value.mesh, name)) is not None},
+            "mesh": {name: part for name in keys_of("Mesh") if (part := getattr(value.mesh, name)) is not None},
             "position": value.position,
             "rotation": {"quaternion": value.rotation},
             "scale": value.scale,

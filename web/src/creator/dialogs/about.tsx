@@ -1,7 +1,7 @@
 // What this is, what it does not do, and whose work is in it.
 
 import type { App } from "../app.js";
-import { useMade } from "./parts.js";
+import { useMade } from "./widgets.js";
 
 export function About({ app }: { app: App }) {
     const licences = useMade(() => app.assets.text("LICENSES.txt"), []);

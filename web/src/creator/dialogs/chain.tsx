@@ -1,15 +1,13 @@
 // The call that draws the picture, the same picture on a node, and tokens.
 
 import { useState } from "preact/hooks";
-import { toHex } from "../../evm/bytes.js";
+import { toHex } from "../../bytes.js";
 import type { Contracts } from "../../evm/contracts.js";
 import { askNode } from "../../evm/rpc.js";
-import type { DialogName } from "../app.js";
+import type { DialogName } from "../state.js";
 import { castCommand } from "../programs/cast.js";
 import { stemOf, titleOf } from "../programs/subject.js";
-import type { TabProps } from "./download.js";
-import { madeOf } from "./files.js";
-import { Code, Progress, Row, useMade, useTask, type Made } from "./parts.js";
+import { Code, Progress, Row, madeOf, useMade, useTask, type Made, type TabProps } from "./widgets.js";
 
 const TOKENS: readonly [DialogName, string, string][] = [
     ["edition", "Make it an edition", "Stores the picture on chain, as tokens that anyone can mint."],

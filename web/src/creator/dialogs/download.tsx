@@ -1,14 +1,12 @@
 // Files, programs, and what chains take, in three tabs.
 
-import { signal } from "@preact/signals";
 import { hashPixels } from "../../picture.js";
 import type { App } from "../app.js";
-import { prepare, sceneOf, type Document } from "../document.js";
-import type { Subject } from "../programs/subject.js";
-import type { Drawn } from "../work/work.js";
+import { open, show } from "../state.js";
+import { prepare, sceneOf } from "../../document/document.js";
 import { ChainTab } from "./chain.js";
 import { FilesTab } from "./files.js";
-import { Choices, drawnOf, useMade, type Made } from "./parts.js";
+import { Choices, drawnOf, useMade } from "./widgets.js";
 import { PictureTab } from "./picture.js";
 
 const TABS = [
@@ -16,20 +14,11 @@ const TABS = [
     ["files", "Files and programs"],
     ["chain", "On chain"],
 ] as const;
-const tab = signal<(typeof TABS)[number][0]>("picture");
-
-/** What the tabs show. drawn, subject: null until they are made. */
-export interface TabProps {
-    app: App;
-    doc: Document;
-    drawn: Drawn | null;
-    subject: Made<Subject>;
-}
 
 export function Download({ app }: { app: App }) {
     const doc = app.doc.value;
     const drawn = useMade((signal) => drawnOf(app, doc, signal), [doc]);
-    const link = addressOf(app);
+    const link = app.address;
     const subject = useMade(
         async (signal) => {
             const { gas, triangles, pixels } = await drawnOf(app, doc, signal);
@@ -41,16 +30,11 @@ export function Download({ app }: { app: App }) {
         [doc, link],
     );
     const made = { value: subject.value, error: drawn.error || subject.error };
-    const Tab = { picture: PictureTab, files: FilesTab, chain: ChainTab }[tab.value];
+    const Tab = { picture: PictureTab, files: FilesTab, chain: ChainTab }[open.value.tab];
     return (
         <>
-            <Choices name="take" label="What to take" value={tab.value} of={TABS} does={(each) => (tab.value = each)} />
+            <Choices name="take" label="What to take" value={open.value.tab} of={TABS} does={(tab) => show({ tab })} />
             <Tab app={app} doc={doc} drawn={drawn.value} subject={made} />
         </>
     );
-}
-
-/** Return the address that restores the picture; "" while it is not known. */
-export function addressOf({ link }: App): string {
-    return link.value === null ? "" : `${location.href.split("#")[0]}${link.value}`;
 }

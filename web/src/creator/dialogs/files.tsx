@@ -1,13 +1,12 @@
 // Files for other programs, and programs that make the picture.
 
-import type { Document } from "../document.js";
+import type { Document } from "../../document/document.js";
 import { pythonProgram } from "../programs/python.js";
 import { solidityProgram } from "../programs/solidity.js";
-import { stemOf, titleOf, type Subject } from "../programs/subject.js";
-import { sceneFile } from "../save.js";
+import { stemOf, titleOf } from "../programs/subject.js";
+import { sceneFile } from "../../document/save.js";
 import type { App } from "../app.js";
-import type { TabProps } from "./download.js";
-import { Code, Progress, Row, useTask, wordsOf, type Made } from "./parts.js";
+import { Code, Progress, Row, madeOf, useTask, type TabProps } from "./widgets.js";
 
 interface Kind {
     name: string;
@@ -87,13 +86,4 @@ function FileOf({ kind, app, doc, stem }: { kind: Kind; app: App; doc: Document;
             <Progress task={task} what={`Making the ${title}`} />
         </Row>
     );
-}
-
-/** Return the text that is made of what is made, or the words of the error. */
-export function madeOf({ value, error }: Made<Subject>, make: (subject: Subject) => string): Made<string> {
-    try {
-        return { value: value && make(value), error };
-    } catch (problem) {
-        return { value: null, error: wordsOf(problem) };
-    }
 }

@@ -3,15 +3,15 @@
 import type { ComponentChildren } from "preact";
 import { useState } from "preact/hooks";
 import type { App } from "../app.js";
-import type { Document } from "../document.js";
-import { capital } from "../parts.js";
+import type { Document } from "../../document/document.js";
+import { capital } from "../../document/fields.js";
 import { neededGas } from "../programs/cast.js";
 import { titleOf } from "../programs/subject.js";
-import { LIMITS, type Limit } from "../settings.js";
+import { LIMITS, type Limit } from "../../document/settings.js";
 import { MAX_TRANSACTION, intrinsicGas, isRelayed } from "../work/calls.js";
 import { CALL_GAS, TRANSACTION_GAS } from "../work/protocol.js";
 import type { EditionTerms, Quote, Stage } from "../work/work.js";
-import { Button, Pixels, Progress, Trouble, count, drawnOf, gasWords, useMade, useTask, type Made } from "./parts.js";
+import { Button, Pixels, Progress, Trouble, count, drawnOf, gasWords, useMade, useTask, type Made } from "./widgets.js";
 
 interface Fit {
     title: string;

@@ -3,8 +3,7 @@
 import { useEffect, useState } from "preact/hooks";
 import { isLocal, stemOf, titleOf } from "../programs/subject.js";
 import { MAX_FILE_SIDE } from "../work/protocol.js";
-import { addressOf, type TabProps } from "./download.js";
-import { Button, Choices, Pixels, Progress, count, gasWords, useTask } from "./parts.js";
+import { Button, Choices, Pixels, Progress, count, gasWords, useTask, type TabProps } from "./widgets.js";
 
 /** The largest PNG that is offered first, in pixels a side. */
 const COMMON = 1024;
@@ -116,7 +115,7 @@ function Page({ app, doc }: TabProps) {
 }
 
 function Link({ app }: TabProps) {
-    const address = addressOf(app);
+    const address = app.address;
     const missing = app.missing.value.join(", ");
     return (
         <>

@@ -5,7 +5,7 @@ import type { App } from "../app.js";
 import { titleOf } from "../programs/subject.js";
 import { duplicateThing, keepThing, openThing, removeThing, renameThing, things, type Thing } from "../things.js";
 import { IconButton } from "../ui/icons.js";
-import { Button, Progress, Trouble, useMade, useTask } from "./parts.js";
+import { Button, Progress, Trouble, useMade, useTask } from "./widgets.js";
 
 /** Pixels of the longer side of a picture on a card. */
 const SIDE = 160;

@@ -1,8 +1,9 @@
 // The calldata of a picture, and commands for cast, the tool of Foundry.
 
 import { InputError } from "../../errors.js";
-import { toHex } from "../../evm/bytes.js";
-import { RENDERER, type Contracts } from "../../evm/contracts.js";
+import { toHex } from "../../bytes.js";
+import type { Contracts } from "../../evm/contracts.js";
+import { RENDERER } from "../../evm/names.js";
 import { floorGas, intrinsicGas } from "../work/calls.js";
 import { stemOf, titleOf, type Subject } from "./subject.js";
 

@@ -1,7 +1,7 @@
 // A picture as a program in Python, which renders it, saves it, and fails if it is another one.
 
 import type { Background, Light, Mesh, Rows, Scene, SceneObject } from "../../scene/types.js";
-import { isSimplified, type Item } from "../document.js";
+import { isSimplified, type Item } from "../../document/document.js";
 import { linkLines, notices, stemOf, titleOf, type Subject } from "./subject.js";
 
 /** Vertices of meshes that stand in the program itself. */

@@ -1,10 +1,10 @@
 // A picture as a contract in Solidity, which holds the scene and calls the renderer with it.
 
-import { toHex } from "../../evm/bytes.js";
-import { SHADINGS } from "../../scene/checked.js";
+import { toHex } from "../../bytes.js";
+import { PROJECTIONS, SHADINGS } from "../../scene/fields.js";
 import { WORD } from "../../scene/encode.js";
 import { OBJECT_WORDS, Reader } from "../../scene/reader.js";
-import { capital } from "../parts.js";
+import { capital } from "../../document/fields.js";
 import { linkLines, notices, oneLine, originOf, stemOf, titleOf, type Subject } from "./subject.js";
 
 /** Bytes of meshes and extensions that a contract holds beside its code (EIP-170: 24,576), and what each object adds. */
@@ -18,7 +18,6 @@ const OWN = "MIT";
 const FREE: Record<string, string> = { MIT: "MIT", CC0: "CC0-1.0", "CC0-1.0": "CC0-1.0" };
 const UNLICENSED = "UNLICENSED";
 const KINDS = ["directional", "point or spot"];
-const PROJECTIONS = ["perspective", "orthographic"];
 const IMPORTED = ["Background", "Camera", "Canvas", "Fixed", "IRenderer", "Light", "Material", "Object", "Picture"];
 const TAKEN = [...IMPORTED, "Quaternion", "Scene", "Vector"];
 

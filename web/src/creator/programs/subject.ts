@@ -1,7 +1,7 @@
 // A picture with everything that programs say of it, and the names and comments that they share.
 
 import type { Scene } from "../../scene/types.js";
-import type { Document, Item, Meshes } from "../document.js";
+import type { Document, Item, Meshes } from "../../document/document.js";
 
 /** What programs are made of. */
 export interface Subject {

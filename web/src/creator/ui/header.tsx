@@ -1,14 +1,11 @@
 // The bar at the top.
 
-import { signal } from "@preact/signals";
-import type { App, DialogName } from "../app.js";
+import type { App } from "../app.js";
+import { open, show, type DialogName } from "../state.js";
 import { Button, IconButton, Logo } from "./icons.js";
 import { surpriseMe } from "./keys.js";
 
 const THEME = "shackled-theme";
-
-/** "light" or "dark" where it was chosen; "" as in the system. */
-const theme = signal("");
 
 /** Take the theme that was chosen before. */
 export function restoreTheme(): void {
@@ -19,16 +16,17 @@ export function restoreTheme(): void {
     }
 }
 
-function setTheme(name: string): void {
-    theme.value = name;
-    document.documentElement.style.colorScheme = name;
+function setTheme(theme: string): void {
+    show({ theme });
+    document.documentElement.style.colorScheme = theme;
 }
 
 function toggleTheme(): void {
-    const dark = (theme.value || (matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light")) === "dark";
+    const dark =
+        (open.peek().theme || (matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light")) === "dark";
     setTheme(dark ? "light" : "dark");
     try {
-        localStorage.setItem(THEME, theme.value);
+        localStorage.setItem(THEME, open.peek().theme);
     } catch {
         // no storage: it lasts as long as the page
     }

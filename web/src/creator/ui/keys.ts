@@ -1,14 +1,14 @@
 // The keys of the page, and what they do.
 
-import { toHex } from "../../evm/bytes.js";
+import { toHex } from "../../bytes.js";
 import type { App } from "../app.js";
-import { fitted, panned, resetCamera, turned, zoomed } from "../camera.js";
+import { fitted, panned, resetCamera, turned, zoomed } from "../../document/camera.js";
 import { MIXED, controlOf, type Control, type Value } from "../controls.js";
-import type { Document, Item } from "../document.js";
-import { LOOKS, applyLook, lookOf, surprise } from "../looks.js";
-import { chosen, type Selection } from "../measure.js";
-import { duplicated, removed } from "../objects.js";
-import { tool } from "./state.js";
+import type { Document, Item } from "../../document/document.js";
+import { LOOKS, applyLook, lookOf, surprise } from "../../document/looks.js";
+import { chosen, type Selection } from "../../document/measure.js";
+import { duplicated, removed } from "../../document/objects.js";
+import { open, show } from "../state.js";
 
 interface Key {
     /** As in KeyboardEvent.key, after "Ctrl+" and "Shift+". */
@@ -115,7 +115,7 @@ export const KEYS: readonly Key[] = [
     key("l", "L", "Next look", (app) => look(app, LOOKS.findIndex(({ name }) => name === lookOf(app.doc.value)) + 1)),
     key("s", "S", "Surprise me", surpriseMe),
     key("g", "G", "Random Genesis piece", (app) => void anyGenesis(app)),
-    key("m", "M", "Move objects by dragging", () => (tool.value = tool.value === "move" ? "turn" : "move")),
+    key("m", "M", "Move objects by dragging", () => show({ tool: open.peek().tool === "move" ? "turn" : "move" })),
     key(
         "[",
         "[",
@@ -173,7 +173,7 @@ export const POINTER = [
 function escape(app: App): void {
     const cancel = app.busy.value?.cancel;
     if (cancel) cancel();
-    else if (tool.value === "move") tool.value = "turn";
+    else if (open.peek().tool === "move") show({ tool: "turn" });
     else app.selected.value = new Set();
 }
 

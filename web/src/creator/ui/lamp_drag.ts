@@ -2,7 +2,7 @@
 
 import type { TargetedPointerEvent } from "preact";
 import type { App } from "../app.js";
-import { fromDisc } from "../lamps.js";
+import { fromDisc } from "../../document/lamps.js";
 
 type Pointer = TargetedPointerEvent<HTMLElement>;
 

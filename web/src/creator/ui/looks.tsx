@@ -3,8 +3,8 @@
 import { signal, useSignalEffect, type Signal } from "@preact/signals";
 import { useMemo } from "preact/hooks";
 import type { App } from "../app.js";
-import type { Document } from "../document.js";
-import { LOOKS, applyLook, lookOf } from "../looks.js";
+import type { Document } from "../../document/document.js";
+import { LOOKS, applyLook, lookOf } from "../../document/looks.js";
 import { Thumb } from "./icons.js";
 import { urlOf } from "./shelf.js";
 

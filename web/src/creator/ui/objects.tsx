@@ -1,21 +1,16 @@
 // The list of objects, and what can be done with them.
 
-import { signal } from "@preact/signals";
 import { useEffect, useRef } from "preact/hooks";
 import type { App } from "../app.js";
-import type { Item } from "../document.js";
-import { renamed, reordered } from "../objects.js";
+import type { Item } from "../../document/document.js";
+import { renamed, reordered } from "../../document/objects.js";
 import { IconButton, type IconAction } from "./icons.js";
 import { duplicate, remove } from "./keys.js";
-import { adding, page } from "./state.js";
-
-/** The id of the object whose name is typed. */
-const naming = signal<string | null>(null);
+import { open, show } from "../state.js";
 
 /** Let the next object that is opened be a further one, and show where they are. */
 function add(): void {
-    adding.value = true;
-    page.value = "shelf";
+    show({ adding: true, page: "shelf" });
     document.querySelector<HTMLElement>("[data-name=search]")?.focus();
 }
 
@@ -60,7 +55,7 @@ export function Objects({ app }: { app: App }) {
             <ul class="list" data-name="objects">
                 {objects.map((item) => (
                     <li key={item.id}>
-                        {naming.value === item.id ? (
+                        {open.value.naming === item.id ? (
                             <Name app={app} item={item} />
                         ) : (
                             <button
@@ -69,9 +64,9 @@ export function Objects({ app }: { app: App }) {
                                 title="Click to select, double click to rename"
                                 data-name={`object-${item.id}`}
                                 onClick={(event) => choose(item.id, event.shiftKey || event.ctrlKey || event.metaKey)}
-                                onDblClick={() => (naming.value = item.id)}
+                                onDblClick={() => show({ naming: item.id })}
                                 onKeyDown={(event) => {
-                                    if (event.key === "F2") naming.value = item.id;
+                                    if (event.key === "F2") show({ naming: item.id });
                                 }}
                             >
                                 <i class="swatch" style={item.color ? { background: item.color } : undefined} />
@@ -104,9 +99,9 @@ function Name({ app, item }: { app: App; item: Item }) {
     const field = useRef<HTMLInputElement>(null);
     useEffect(() => field.current?.select(), []);
     const end = (keep: boolean): void => {
-        if (naming.value !== item.id) return;
+        if (open.peek().naming !== item.id) return;
         const name = field.current?.value.trim();
-        naming.value = null;
+        show({ naming: null });
         if (keep && name && name !== item.name) app.change(renamed(app.doc.value, item.id, name), "Rename");
     };
     return (

@@ -1,6 +1,5 @@
 // The whole page.
 
-import { signal } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 import { InputError } from "../../errors.js";
 import type { App } from "../app.js";
@@ -9,7 +8,7 @@ import { Choices } from "./icons.js";
 import { Panel } from "./panel.js";
 import { Picture } from "./picture.js";
 import { ShelfPanel, openSeed, seedIn } from "./shelf.js";
-import { page } from "./state.js";
+import { open, show } from "../state.js";
 import { Status } from "./status.js";
 
 /** What small screens have below the picture. */
@@ -19,44 +18,35 @@ const PAGES = [
     { name: "scene", title: "Adjust" },
 ] as const;
 
-const dropping = signal(false);
-
 export function Page({ app }: { app: App }) {
     useEffect(() => listenToFiles(app), []);
-    const open = app.dialog.value;
+    const { dialog, dropping, page } = open.value;
     return (
-        <div class="creator" data-page={page.value}>
+        <div class="creator" data-page={page}>
             <Header app={app} />
             <ShelfPanel app={app} />
             <main class="stage" aria-label="The picture and its gas">
                 <Picture app={app} />
                 <Status app={app} />
-                <Choices
-                    id="page"
-                    label="Below the picture"
-                    look="pages"
-                    of={PAGES}
-                    chosen={page.value}
-                    choose={show}
-                />
+                <Choices id="page" label="Below the picture" look="pages" of={PAGES} chosen={page} choose={turnTo} />
             </main>
             <Panel app={app} />
             <footer class="foot">
                 <Seldom app={app} />
             </footer>
-            {dropping.value && (
+            {dropping && (
                 <div class="dropping" aria-hidden="true">
                     Drop files to open them
                 </div>
             )}
-            {open && <open.Dialog key={open.name} app={app} />}
+            {dialog && <dialog.Dialog key={dialog.name} />}
         </div>
     );
 }
 
 /** Show one of the pages from its beginning. */
-function show(name: (typeof PAGES)[number]["name"]): void {
-    page.value = name;
+function turnTo(page: (typeof PAGES)[number]["name"]): void {
+    show({ page });
     scrollTo(0, 0);
 }
 
@@ -73,7 +63,7 @@ function listenToFiles(app: App): () => void {
     };
     const depth = (by: number): void => {
         over = Math.max(0, over + by);
-        dropping.value = over > 0;
+        show({ dropping: over > 0 });
     };
     on("dragenter", ({ dataTransfer }) => dataTransfer?.types.includes("Files") && depth(1));
     on("dragleave", ({ dataTransfer }) => dataTransfer?.types.includes("Files") && depth(-1));

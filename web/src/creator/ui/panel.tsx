@@ -2,13 +2,13 @@
 
 import { useSignal } from "@preact/signals";
 import type { ComponentChildren, TargetedEvent } from "preact";
-import { MAX_LIGHTS } from "../../scene/checked.js";
+import { MAX_LIGHTS } from "../../scene/constants.js";
 import type { App } from "../app.js";
 import { CONTROLS, GROUPS, lightControls, resetGroup, type Control } from "../controls.js";
-import type { Document } from "../document.js";
-import { addLight, onDisc, removeLight } from "../lamps.js";
-import { chosen } from "../measure.js";
-import { capital } from "../parts.js";
+import type { Document } from "../../document/document.js";
+import { addLight, onDisc, removeLight } from "../../document/lamps.js";
+import { chosen } from "../../document/measure.js";
+import { capital } from "../../document/fields.js";
 import { Button, Choices, IconButton } from "./icons.js";
 import { dragsLight } from "./lamp_drag.js";
 import { Looks } from "./looks.js";

@@ -4,16 +4,16 @@ import { useComputed, useSignal, useSignalEffect } from "@preact/signals";
 import { useEffect, useLayoutEffect, useRef } from "preact/hooks";
 import { add, type Vector } from "../../scene/arithmetic.js";
 import type { App } from "../app.js";
-import { panned, turned, zoomed } from "../camera.js";
-import type { Document, Item } from "../document.js";
-import { onDisc } from "../lamps.js";
-import { changed, chosen, sphereOf, tidied } from "../measure.js";
+import { panned, turned, zoomed } from "../../document/camera.js";
+import type { Document, Item } from "../../document/document.js";
+import { onDisc } from "../../document/lamps.js";
+import { changed, chosen, sphereOf, tidied } from "../../document/measure.js";
 import { listen } from "./gestures.js";
 import { IconButton } from "./icons.js";
 import { fit } from "./keys.js";
 import { dragsLight } from "./lamp_drag.js";
 import { dragged, project, type Spot } from "./place.js";
-import { begun, lamps, tool } from "./state.js";
+import { open, show } from "../state.js";
 
 /** Radius of the sphere of the lights, in parts of the picture's height. */
 const DISC = 0.4;
@@ -33,6 +33,7 @@ export function Picture({ app }: { app: App }) {
     const canvas = useRef<HTMLCanvasElement>(null);
     const space = useSignal<readonly [number, number, number]>([0, 0, 0]);
     const { seen } = app.drawing;
+    const { begun, lamps, tool } = open.value;
 
     const title = useComputed(() => seen.value?.doc.title || "The picture");
 
@@ -93,10 +94,10 @@ export function Picture({ app }: { app: App }) {
             turn: (dx: number, dy: number) => change(turned(app.doc.peek(), dx, dy), "Turn"),
             pan: (dx: number, dy: number) => change(panned(app.doc.peek(), dx, dy), "Pan"),
             zoom: (factor: number) => change(zoomed(app.doc.peek(), factor), "Zoom"),
-            grab: (from: Spot) => (tool.peek() === "move" ? mover(app, from) : null),
+            grab: (from: Spot) => (open.peek().tool === "move" ? mover(app, from) : null),
             click: (at: Spot, event: PointerEvent) => void select(app, at, event.shiftKey),
             hold: (is: boolean) => {
-                begun.value = true;
+                show({ begun: true });
                 app.drawing.hold(is);
             },
         };
@@ -108,12 +109,12 @@ export function Picture({ app }: { app: App }) {
     return (
         <div class="well" ref={well}>
             <Tools app={app} />
-            <div id="view" ref={view} tabIndex={0} role="application" aria-label={LABEL} data-tool={tool.value}>
+            <div id="view" ref={view} tabIndex={0} role="application" aria-label={LABEL} data-tool={tool}>
                 <canvas id="picture" ref={canvas} role="img" aria-label={title} width="1" height="1" />
                 <Marks app={app} />
-                {lamps.value && <Handles app={app} />}
-                <div class={begun.value || app.canUndo.value ? "hint" : "hint first"} aria-hidden="true">
-                    {tool.value === "move" ? "Drag an object to move it · Shift to lift it" : HINT}
+                {lamps && <Handles app={app} />}
+                <div class={begun || app.canUndo.value ? "hint" : "hint first"} aria-hidden="true">
+                    {tool === "move" ? "Drag an object to move it · Shift to lift it" : HINT}
                 </div>
             </div>
             <Busy app={app} />
@@ -165,13 +166,13 @@ async function select(app: App, [x, y]: Spot, more: boolean): Promise<void> {
 }
 
 const TOOLS = [
-    { name: "turn", label: "Turn", hint: "Drag turns the view", does: () => (tool.value = "turn") },
-    { name: "move", label: "Move objects", hint: "Drag moves objects (M)", does: () => (tool.value = "move") },
+    { name: "turn", label: "Turn", hint: "Drag turns the view", does: () => show({ tool: "turn" }) },
+    { name: "move", label: "Move objects", hint: "Drag moves objects (M)", does: () => show({ tool: "move" }) },
     {
         name: "light",
         label: "Lights",
         hint: "Show lights that can be dragged",
-        does: () => (lamps.value = !lamps.value),
+        does: () => show({ lamps: !open.peek().lamps }),
     },
 ] as const;
 
@@ -179,7 +180,7 @@ function Tools({ app }: { app: App }) {
     return (
         <div class="tools" role="toolbar" aria-label="Tools">
             {TOOLS.map(({ name, label, hint, does }) => {
-                const pressed = name === "light" ? lamps.value : tool.value === name;
+                const pressed = name === "light" ? open.value.lamps : open.value.tool === name;
                 return (
                     <IconButton
                         name={name}

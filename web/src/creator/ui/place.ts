@@ -1,8 +1,8 @@
 // Between points of the canvas and points of the world.
 
 import { add, dot, subtract, times, unit, type Vector } from "../../scene/arithmetic.js";
-import { axesOf } from "../camera.js";
-import type { Document } from "../document.js";
+import { axesOf } from "../../document/camera.js";
+import type { Document } from "../../document/document.js";
 
 /** A point of the picture: fractions of its width and height from the upper left corner. */
 export type Spot = readonly [number, number];

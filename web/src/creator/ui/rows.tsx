@@ -5,8 +5,8 @@ import type { VNode } from "preact";
 import { useId, useLayoutEffect, useRef } from "preact/hooks";
 import type { App } from "../app.js";
 import { MIXED, type Control, type Value } from "../controls.js";
-import type { Document } from "../document.js";
-import { capital } from "../parts.js";
+import type { Document } from "../../document/document.js";
+import { capital } from "../../document/fields.js";
 import { Icon } from "./icons.js";
 
 /** Units as they are shown in fields. */

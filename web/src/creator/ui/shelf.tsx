@@ -4,10 +4,10 @@ import { signal, useComputed } from "@preact/signals";
 import { useEffect } from "preact/hooks";
 import type { App } from "../app.js";
 import type { PieceEntry } from "../assets.js";
-import type { Document } from "../document.js";
+import type { Document } from "../../document/document.js";
 import { Button, Choices, Icon, Thumb } from "./icons.js";
 import { anyGenesis } from "./keys.js";
-import { adding } from "./state.js";
+import { open, show } from "../state.js";
 import type { Drawn } from "../work/work.js";
 
 /** The datasets, in the order of the shelf. */
@@ -16,7 +16,6 @@ const SHELVES = [
     { name: "common", title: "Objects" },
     { name: "genesis", title: "Genesis" },
 ] as const;
-type Shelf = (typeof SHELVES)[number]["name"];
 
 /** Number of Genesis pieces on the shelf, of those in the collection, and the side of their pictures. */
 const GENESIS = 24;
@@ -26,8 +25,6 @@ const SIDE = 64;
 /** Files that can be opened, and those that belong to them. */
 const ACCEPTED = ".glb,.gltf,.obj,.mtl,.ply,.stl,.off,.toml,.json,.zip,.png,.jpg,.jpeg,.webp,.bin,.hex";
 
-const shelf = signal<Shelf>("icons");
-const words = signal("");
 const thumbnails = signal<Readonly<Record<string, string>>>({});
 
 export function ShelfPanel({ app }: { app: App }) {
@@ -38,10 +35,11 @@ export function ShelfPanel({ app }: { app: App }) {
             () => undefined,
         );
     }, []);
-    const asked = words.value.trim().toLowerCase();
+    const { adding, shelf, words } = open.value;
+    const asked = words.trim().toLowerCase();
     const seed = seedIn(asked);
     const isFound = ({ name, title }: PieceEntry): boolean => `${name} ${title}`.toLowerCase().includes(asked);
-    const isHere = ({ dataset }: PieceEntry): boolean => dataset === shelf.value;
+    const isHere = ({ dataset }: PieceEntry): boolean => dataset === shelf;
     const names = app.pieces.value.filter(asked ? isFound : isHere).map(({ name }) => name);
     return (
         <section class="shelf" aria-label="Objects" id="page-shelf">
@@ -72,13 +70,13 @@ export function ShelfPanel({ app }: { app: App }) {
                 placeholder="Search, or a Genesis seed"
                 aria-label="Search the objects, or enter a Genesis seed"
                 data-name="search"
-                value={words.value}
-                onInput={({ currentTarget }) => (words.value = currentTarget.value)}
+                value={words}
+                onInput={({ currentTarget }) => show({ words: currentTarget.value })}
                 onKeyDown={({ key }) => {
-                    if (key === "Escape") words.value = "";
+                    if (key === "Escape") show({ words: "" });
                     if (key !== "Enter") return;
                     if (seed) void openSeed(app, seed);
-                    else if (asked && names[0]) void app.openPiece(names[0], adding.value);
+                    else if (asked && names[0]) void app.openPiece(names[0], adding);
                 }}
             />
             {!asked && (
@@ -86,22 +84,22 @@ export function ShelfPanel({ app }: { app: App }) {
                     id="shelf"
                     label="Shelves"
                     of={SHELVES}
-                    chosen={shelf.value}
-                    choose={(name) => (shelf.value = name)}
+                    chosen={shelf}
+                    choose={(name) => show({ shelf: name })}
                 />
             )}
             <label class="quiet adding">
                 <input
                     type="checkbox"
                     data-name="adding"
-                    checked={adding.value}
-                    onChange={({ currentTarget }) => (adding.value = currentTarget.checked)}
+                    checked={adding}
+                    onChange={({ currentTarget }) => show({ adding: currentTarget.checked })}
                 />
                 Add to the scene
             </label>
             <div class="pieces-of">
                 {asked && <Found app={app} isEmpty={!names.length} seed={seed} />}
-                {!asked && shelf.value === "genesis" ? <Genesis app={app} /> : <Pieces app={app} names={names} />}
+                {!asked && shelf === "genesis" ? <Genesis app={app} /> : <Pieces app={app} names={names} />}
             </div>
         </section>
     );
@@ -132,7 +130,7 @@ function Pieces({ app, names }: { app: App; names: readonly string[] }) {
                     title={titles.get(name) ?? name}
                     url={thumbnails.value[name]}
                     pressed={shown === name}
-                    onClick={(event) => void app.openPiece(name, adding.value || event.shiftKey)}
+                    onClick={(event) => void app.openPiece(name, open.peek().adding || event.shiftKey)}
                 />
             ))}
         </div>
@@ -159,7 +157,7 @@ function Genesis({ app }: { app: App }) {
                 label="Random piece"
                 id="any-genesis"
                 look=""
-                onClick={() => void anyGenesis(app, adding.value)}
+                onClick={() => void anyGenesis(app, open.peek().adding)}
             />
             <div class="pieces">
                 {genesis.value.map((url, number) => {
@@ -208,6 +206,6 @@ export function seedIn(text: string): string | null {
 
 /** Open the piece of a seed as `seedIn` returns it. */
 export async function openSeed(app: App, seed: string): Promise<void> {
-    words.value = "";
-    await app.openPiece(`genesis/${seed}`, adding.value);
+    show({ words: "" });
+    await app.openPiece(`genesis/${seed}`, open.peek().adding);
 }

@@ -2,7 +2,7 @@
 
 import { signal, useSignalEffect } from "@preact/signals";
 import type { App } from "../app.js";
-import { LIMITS } from "../settings.js";
+import { LIMITS } from "../../document/settings.js";
 import type { Drawn } from "../work/work.js";
 
 /** Gas of a request besides that of its execution, the least gas of a byte (EIP-7623), and the largest transaction: bounds. */

@@ -1,7 +1,7 @@
 // The names of chains, and where collections are on chains.
 
 import { numberToHex } from "viem";
-import { CHAINS } from "../settings.js";
+import { CHAINS } from "../../document/settings.js";
 
 /** The IDs of chains on which gas is paid in ether, in which the page tells amounts. */
 export const ETHER_CHAINS = CHAINS.flatMap(({ number, currency }) => (currency === "ETH" ? number : []));

@@ -4,7 +4,7 @@ import { isAddressEqual, parseEther, parseEventLogs, toHex as hex, type Address,
 import { getCode, getContractEvents, readContract } from "viem/actions";
 import { InputError } from "../../errors.js";
 import type { App } from "../app.js";
-import type { Document } from "../document.js";
+import type { Document } from "../../document/document.js";
 import { oneLine } from "../programs/subject.js";
 import { OPEN_SUPPLY } from "../work/protocol.js";
 import type { EditionTerms, Quote } from "../work/work.js";

@@ -5,15 +5,15 @@ import { useRef, useState } from "preact/hooks";
 import type { Address } from "viem";
 import type { App } from "../app.js";
 import { tokenWords, useFit } from "../dialogs/limits.js";
-import { Button, Pixels, Trouble, count, gasWords, useMade, wordsOf } from "../dialogs/parts.js";
-import type { Document } from "../document.js";
+import { Button, Pixels, Trouble, count, gasWords, useMade, wordsOf } from "../dialogs/widgets.js";
+import type { Document } from "../../document/document.js";
 import { titleOf } from "../programs/subject.js";
 import { TRANSACTION_GAS } from "../work/protocol.js";
 import type { EditionTerms, Quote } from "../work/work.js";
 import { ETHER_CHAINS, addressBook, chainName, chainsOf } from "./chains.js";
 import { add, planOf, termsOf, type Added, type Fields, type Plan, type Quoted } from "./edition.js";
 import { allows, rightsOf } from "./licence.js";
-import { Act, Chains, Poor, Said, TokenView, WalletLine, atMost, job, perform } from "./parts.js";
+import { Act, Chains, Poor, Said, TokenView, WalletLine, atMost, perform, running } from "./widgets.js";
 import { plainly, session } from "./wallet.js";
 
 const COMMAND = "shackled store SCENE.json --licence LICENCE; shackled token edition add POINTER NAME --price 0.01";
@@ -43,7 +43,7 @@ export function EditionDialog({ app }: { app: App }) {
     const { quoted, shown, problem, error, terms } = useQuote(app, doc, fields);
     const plan = useMade(
         async () => ({ of: quoted, plan: now && quoted?.quote.fits ? await plainly(planOf(now, quoted)) : undefined }),
-        [now, quoted, job.value === null],
+        [now, quoted, running() === null],
     );
     // what was planned last stays in sight while it is planned anew, and where that fails
     const told = useRef<Plan | null>(null);

@@ -1,7 +1,7 @@
 // Minting publishes a changed copy permanently, and may sell it: whether licences allow this.
 
 import type { App } from "../app.js";
-import type { Document } from "../document.js";
+import type { Document } from "../../document/document.js";
 import { originOf } from "../programs/subject.js";
 
 /** Licences that allow it, in lower case, with single spaces between the words: as the command line has them. */

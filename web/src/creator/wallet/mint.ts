@@ -5,12 +5,12 @@ import { getCode, readContract } from "viem/actions";
 import { InputError } from "../../errors.js";
 import type { App } from "../app.js";
 import { oneLine, titleOf } from "../programs/subject.js";
-import { USUAL_GAS } from "../settings.js";
+import { USUAL_GAS } from "../../document/settings.js";
 import { intrinsicGas } from "../work/calls.js";
 import { OPEN_SUPPLY, type More } from "../work/protocol.js";
 import { EDITIONS, GENESIS, ICONS, TOKENS } from "./abi.js";
 import { addressBook } from "./chains.js";
-import { ether, short } from "./parts.js";
+import { ether, short } from "./widgets.js";
 import { metadataOf, mintedIn, type Token } from "./tokens.js";
 import { priced, send, type Priced, type Session, type Tell } from "./wallet.js";
 

@@ -2,10 +2,10 @@
 
 import { useState } from "preact/hooks";
 import type { App } from "../app.js";
-import { Choices, useMade } from "../dialogs/parts.js";
+import { Choices, useMade } from "../dialogs/widgets.js";
 import { addressBook, chainName, chainsOf } from "./chains.js";
 import { TITLES, mint, offerOf, shopsOf, type Shop } from "./mint.js";
-import { Act, Chains, Poor, Said, TokenView, WalletLine, atMost, job, perform } from "./parts.js";
+import { Act, Chains, Poor, Said, TokenView, WalletLine, atMost, perform, running } from "./widgets.js";
 import type { Token } from "./tokens.js";
 import { plainly, session, type Session } from "./wallet.js";
 
@@ -51,7 +51,7 @@ function Shelf({ now, shop }: { now: Session; shop: Shop }) {
     const isEmpty = shop.kinds?.length === 0;
     const offer = useMade(
         async () => (isEmpty ? null : { number, ...(await plainly(offerOf(now, shop, number))) }),
-        [now, number, job.value === null],
+        [now, number, running() === null],
     );
     if (isEmpty) return <p>There is nothing in {TITLES[shop.contract]} on this chain yet.</p>;
     if (token) {

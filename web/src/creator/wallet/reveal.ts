@@ -6,8 +6,8 @@ import { encodeFunctionData, keccak256, numberToHex, pad, toRlp, type Address, t
 import { readContract } from "viem/actions";
 import { InputError } from "../../errors.js";
 import { plural } from "../../files/source.js";
-import { count } from "../dialogs/parts.js";
-import { USUAL_GAS } from "../settings.js";
+import { count } from "../dialogs/widgets.js";
+import { USUAL_GAS } from "../../document/settings.js";
 import { GENESIS, TOKENS } from "./abi.js";
 import { chainName } from "./chains.js";
 import { TITLES } from "./mint.js";

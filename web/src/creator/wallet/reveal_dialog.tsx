@@ -4,9 +4,9 @@ import { useState } from "preact/hooks";
 import { getAddress, isAddress } from "viem";
 import { plural } from "../../files/source.js";
 import type { App } from "../app.js";
-import { Code, Progress, useMade, useTask } from "../dialogs/parts.js";
+import { Code, Progress, useMade, useTask } from "../dialogs/widgets.js";
 import { addressBook, chainName, chainsOf } from "./chains.js";
-import { Act, Chains, Poor, Said, WalletLine, atMost, perform } from "./parts.js";
+import { Act, Chains, Poor, Said, WalletLine, atMost, perform } from "./widgets.js";
 import { COMMAND, findReveal, sendReveal, type Reveal } from "./reveal.js";
 import { plainly, session } from "./wallet.js";
 

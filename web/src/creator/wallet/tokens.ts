@@ -3,7 +3,7 @@
 import { isAddressEqual, parseEventLogs, type Address, type Log, type TransactionReceipt } from "viem";
 import { readContract } from "viem/actions";
 import { InputError } from "../../errors.js";
-import { fromBase64 } from "../../evm/bytes.js";
+import { fromBase64 } from "../../bytes.js";
 import { TOKENS } from "./abi.js";
 import type { Session } from "./wallet.js";
 

@@ -6,7 +6,7 @@ import type { Address, Client, EIP1193Provider, Hash, Hex, TransactionReceipt } 
 import { getBalance, waitForTransactionReceipt } from "viem/actions";
 import { InputError } from "../../errors.js";
 import { oneLine } from "../programs/subject.js";
-import { BOUNDS } from "../settings.js";
+import { BOUNDS } from "../../document/settings.js";
 import { additionOf, chainName } from "./chains.js";
 
 export interface Wallet {

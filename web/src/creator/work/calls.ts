@@ -1,6 +1,6 @@
 // Calls of the contracts beside the Renderer: their selectors, the ABI encoding of arguments, and the gas of transactions.
 
-import { fromHex, joined } from "../../evm/bytes.js";
+import { fromHex, joined } from "../../bytes.js";
 import { WORD, dynamicBytes } from "../../scene/encode.js";
 
 /** The selectors of the functions that are called, by contract. */

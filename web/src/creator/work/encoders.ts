@@ -2,32 +2,27 @@
 
 import { GIFEncoder, applyPalette, quantize } from "gifenc";
 import { InputError } from "../../errors.js";
-import { bytesAt, deflate, joined, toHex } from "../../evm/bytes.js";
+import { bytesAt, joined } from "../../bytes.js";
 import { drawCall } from "../../picture.js";
+import { withCall } from "../../scene/call_file.js";
 import { encode } from "../../scene/encode.js";
 import type { Scene } from "../../scene/types.js";
 import { SELECTORS, callOf, structOf } from "./calls.js";
-import type { Machine } from "./machine.js";
+import type { Host } from "./host.js";
 import { MAX_FILE_SIDE, type Film, type Format, type Requests } from "./protocol.js";
 
-/** The most bytes of the chunk with the scene in a PNG file, and the most characters of its text. */
-const MAX_CHUNK = 64 * 1024;
-const MAX_TEXT = 2 ** 20;
-/** Bytes of a PNG file up to the end of its chunk IHDR, behind which the scene is. */
-const PNG_HEADER = 33;
-const KEYWORD = new TextEncoder().encode("shackled\0\0");
 /** The frames of which the colours of a GIF are chosen. */
 const SAMPLED = 16;
 const ONE = 2n ** 32n;
 
 /** Return a file as a contract makes it. scale: side of the square that each pixel becomes. */
 export async function fileOf(
-    machine: Machine,
+    host: Host,
     scene: Scene,
     { format, scale = 1, frames = 2, duration = 80 }: { format: Format } & Partial<Film>,
 ): Promise<Uint8Array<ArrayBuffer>> {
     const ask = (name: "PngEncoder" | "GlbEncoder" | "Turntable", call: Uint8Array): Uint8Array<ArrayBuffer> =>
-        bytesAt(machine.evm.call(machine.addressOf(name), call).output, 0).slice();
+        bytesAt(host.evm.call(host.addressOf(name), call).output, 0).slice();
     const call = encode(scene);
     checkSide(scene, scale);
     if (format === "glb") return ask("GlbEncoder", callOf(SELECTORS.GlbEncoder.encode, structOf(call)));
@@ -37,15 +32,15 @@ export async function fileOf(
     }
     if (format === "transparent") {
         const over = (background: string): { bytes: Uint8Array } => ({
-            bytes: machine.draw({ ...scene, background }, true).bmp!,
+            bytes: host.draw({ ...scene, background }, true).bmp!,
         });
         const pair = [over("#000000"), over("#ffffff")];
         if (scene.invert) pair.reverse();
-        return withScene(ask("PngEncoder", callOf(SELECTORS.PngEncoder.encodeTransparent, ...pair, scale)), call);
+        return withCall(ask("PngEncoder", callOf(SELECTORS.PngEncoder.encodeTransparent, ...pair, scale)), call);
     }
-    const { bmp } = drawCall(machine.evm, call);
+    const { bmp } = drawCall(host.evm, call);
     if (format === "svg") return ask("PngEncoder", callOf(SELECTORS.PngEncoder.svg, { bytes: bmp }, scale));
-    return withScene(ask("PngEncoder", callOf(SELECTORS.PngEncoder.encode, { bytes: bmp }, scale)), call);
+    return withCall(ask("PngEncoder", callOf(SELECTORS.PngEncoder.encode, { bytes: bmp }, scale)), call);
 }
 
 function checkSide({ width = 128, height = 128 }: Pick<Scene, "width" | "height">, scale: number): void {
@@ -54,34 +49,6 @@ function checkSide({ width = 128, height = 128 }: Pick<Scene, "width" | "height"
             `A file can have up to ${MAX_FILE_SIDE.toLocaleString("en")} pixels a side: choose a smaller scale`,
         );
     }
-}
-
-/** Return a PNG file that carries its scene, as docs/scene-files.md says; the same file if the scene is large. */
-export async function withScene(png: Uint8Array<ArrayBuffer>, call: Uint8Array): Promise<Uint8Array<ArrayBuffer>> {
-    const text = toHex(call);
-    if (text.length > MAX_TEXT) return png;
-    const content = joined([KEYWORD, await deflate(text, "deflate")]);
-    if (content.length > MAX_CHUNK) return png;
-    return joined([png.subarray(0, PNG_HEADER), chunk("zTXt", content), png.subarray(PNG_HEADER)]);
-}
-
-function chunk(kind: string, content: Uint8Array): Uint8Array {
-    const made = new Uint8Array(12 + content.length);
-    const view = new DataView(made.buffer);
-    view.setUint32(0, content.length);
-    made.set(new TextEncoder().encode(kind), 4);
-    made.set(content, 8);
-    view.setUint32(8 + content.length, crc32(made.subarray(4, 8 + content.length)));
-    return made;
-}
-
-function crc32(bytes: Uint8Array): number {
-    let crc = -1;
-    for (const byte of bytes) {
-        crc ^= byte;
-        for (let bit = 0; bit < 8; bit++) crc = (crc >>> 1) ^ (crc & 1 ? 0xedb88320 : 0);
-    }
-    return ~crc >>> 0;
 }
 
 /** Return an endless GIF. Its frames have one palette, so that none flickers. */

@@ -1,12 +1,13 @@
 // Make it fit: the largest canvas, then the most triangles, with which a document fits a limit.
 
 import { InputError } from "../../errors.js";
+import { Cancelled } from "../../workers/protocol.js";
 import { encode } from "../../scene/encode.js";
 import type { Scene } from "../../scene/types.js";
-import type { Document, Meshes } from "../document.js";
+import type { Document, Meshes } from "../../document/document.js";
 import { floorGas, intrinsicGas, isRelayed } from "./calls.js";
-import type { Machine } from "./machine.js";
-import { CALL_GAS, Cancelled, TRANSACTION_GAS, type EditionTerms, type Limit, type Options } from "./protocol.js";
+import type { Host } from "./host.js";
+import { CALL_GAS, TRANSACTION_GAS, type EditionTerms, type Limit, type Options } from "./protocol.js";
 import { quoteOf } from "./quote.js";
 
 /** Longest sides of the canvas: the least that is good enough, and the least at all. */
@@ -20,12 +21,12 @@ const FEWEST = 12;
 const TERMS: EditionTerms = { name: "Edition", price: 0n, supply: null, royalty: 500, copies: 1, model: false };
 
 /** Whether a scene fits a limit, as the contracts find. */
-export function fitsIn(machine: Machine, scene: Scene, limit: Limit, terms = TERMS): boolean {
-    if (limit === "edition") return quoteOf(machine, scene, terms).fits;
+export function fitsIn(host: Host, scene: Scene, limit: Limit, terms = TERMS): boolean {
+    if (limit === "edition") return quoteOf(host, scene, terms).fits;
     const call = encode(scene);
-    if (limit === "call") return machine.suffices(call, CALL_GAS - intrinsicGas(call));
+    if (limit === "call") return host.suffices(call, CALL_GAS - intrinsicGas(call));
     const isSmall = isRelayed(call) && floorGas(call) <= TRANSACTION_GAS;
-    return isSmall && machine.suffices(call, TRANSACTION_GAS - intrinsicGas(call));
+    return isSmall && host.suffices(call, TRANSACTION_GAS - intrinsicGas(call));
 }
 
 /**
@@ -88,11 +89,12 @@ function sized(doc: Document, longest: number): Document {
     };
 }
 
-function withShare(doc: Document, meshes: Meshes, share: number): Document {
+/** Return the document with a share of its triangles, but no fewer than `fewest` of an object that has more. */
+export function withShare(doc: Document, meshes: Meshes, share: number, fewest = FEWEST): Document {
     if (share === 1) return doc;
     const objects = doc.objects.map((item) => {
         const now = Math.min(item.maxTriangles ?? Infinity, meshes.get(item.mesh).triangles);
-        return { ...item, maxTriangles: Math.min(now, Math.max(FEWEST, Math.round(now * share))) };
+        return { ...item, maxTriangles: Math.min(now, Math.max(fewest, Math.round(now * share))) };
     });
     return { ...doc, objects };
 }

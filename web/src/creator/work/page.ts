@@ -1,9 +1,9 @@
 // The page of one file that shows a scene in any browser: the template of `shackled export`, filled in.
 
 import { InputError } from "../../errors.js";
-import { deflate, toBase64 } from "../../evm/bytes.js";
+import { deflate, toBase64 } from "../../bytes.js";
 import type { PageAssets } from "../assets.js";
-import type { Document } from "../document.js";
+import type { Document } from "../../document/document.js";
 import type { Drawn } from "./protocol.js";
 
 /** The most bytes of a call, and gas of a picture, that <shackled-view> takes, and the most bytes of a PNG file in the page. */

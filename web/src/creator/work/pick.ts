@@ -1,7 +1,7 @@
 // Which object is where: a picture in which each object has a colour of its own, drawn by the contracts.
 
 import type { Scene } from "../../scene/types.js";
-import type { Machine } from "./machine.js";
+import type { Host } from "./host.js";
 
 /** The longest side of the picture. */
 const SIDE = 128;
@@ -13,7 +13,7 @@ interface Ids {
     ids: Int32Array<ArrayBuffer>;
 }
 
-export function idsOf(machine: Machine, scene: Scene): Ids {
+export function idsOf(host: Host, scene: Scene): Ids {
     const { width = SIDE, height = SIDE, camera = {} } = scene;
     const part = Math.min(1, SIDE / Math.max(width, height));
     const objects = scene.objects.map(({ mesh, position, rotation, scale, cull }, index) => ({
@@ -22,7 +22,7 @@ export function idsOf(machine: Machine, scene: Scene): Ids {
         ...{ position, rotation, scale, cull },
     }));
     const small = { width: Math.max(1, Math.round(width * part)), height: Math.max(1, Math.round(height * part)) };
-    const drawn = machine.draw({ objects, camera, lights: [], background: "#000000", ...small });
+    const drawn = host.draw({ objects, camera, lights: [], background: "#000000", ...small });
     const rgb = new DataView(drawn.pixels.buffer);
     const ids = Int32Array.from({ length: drawn.pixels.length / 4 }, (_, at) => (rgb.getUint32(4 * at) >>> 8) - 1);
     return { width: drawn.width, height: drawn.height, ids };

@@ -1,11 +1,10 @@
 // What the page asks its workers, and what they answer.
 
-import { InputError } from "../../errors.js";
-import { CallError, type Contracts } from "../../evm/contracts.js";
+import type { Contracts } from "../../evm/contracts.js";
 import type { StageGas, Stages } from "../../evm/stages.js";
 import type { Camera, Scene } from "../../scene/types.js";
-import type { Document, MeshRef, SceneOptions, StoredMesh } from "../document.js";
-import { LIMITS } from "../settings.js";
+import type { Document, SceneOptions } from "../../document/document.js";
+import { LIMITS } from "../../document/settings.js";
 
 export type { StageGas };
 
@@ -101,12 +100,11 @@ export const MAX_FILE_SIDE = 4096;
 /** Further contracts, in the form of contracts.json. */
 export type More = Pick<Contracts, "errors"> & { contracts: Record<string, { address: string; code: string }> };
 
-/** What a worker keeps: given once. */
+/** What a worker keeps by names; meshes it keeps by their keys. */
 export interface Supplies {
-    evm?: { module: WebAssembly.Module; contracts: Contracts };
-    more?: More;
-    stages?: Stages;
-    meshes?: [string, StoredMesh][];
+    evm: { module: WebAssembly.Module; contracts: Contracts };
+    more: More;
+    stages: Stages;
 }
 
 /** How a document is to be drawn. bmp: whether the file is wanted, too. */
@@ -156,25 +154,3 @@ export const NEEDS: { [K in Kind]?: "more" | "stages" } = {
     quote: "more",
     fits: "more",
 };
-
-export type Message = { give: Supplies } | { id: number; kind: Kind; value: unknown };
-export type Reply = { id: number; value: unknown } | { id: number; error: { name: string; message: string } };
-
-/** What nobody waits for any more. */
-export class Cancelled extends Error {
-    override name = "Cancelled";
-
-    constructor() {
-        super("it was cancelled");
-    }
-}
-
-/** Return the error that a worker told. */
-export function errorOf({ name, message }: { name: string; message: string }): Error {
-    if (name === "InputError") return new InputError(message);
-    return name === "CallError" ? new CallError(message) : new Error(message);
-}
-
-export function keyOf(ref: MeshRef): string {
-    return "file" in ref ? ref.file : `${ref.piece}#${ref.object}`;
-}

@@ -1,7 +1,7 @@
 // What an edition costs: the scene is stored and added in an EVM of its own, by the contracts that will do it on the chain.
 
 import { InputError } from "../../errors.js";
-import { bytesAt, joined, toHex } from "../../evm/bytes.js";
+import { bytesAt, joined, toHex } from "../../bytes.js";
 import { CallError, type ContractEvm } from "../../evm/contracts.js";
 import { checkedMesh } from "../../scene/checked.js";
 import { WORD, dynamicBytes, encode } from "../../scene/encode.js";
@@ -9,7 +9,7 @@ import { OBJECT_WORDS, Reader } from "../../scene/reader.js";
 import type { Scene, SceneObject } from "../../scene/types.js";
 import { SELECTORS, addressIn, callOf, intrinsicGas, structOf, word, type Argument } from "./calls.js";
 import { compact, compressZeros, vertexOrder } from "./compact.js";
-import type { Machine } from "./machine.js";
+import type { Host } from "./host.js";
 import {
     OPEN_SUPPLY,
     TRANSACTION_GAS,
@@ -41,11 +41,11 @@ const MARGINS = [1.05, 1.1, 1.15, 1.25];
 const OBJECTS_AT = 19;
 
 /** Return what an edition of a scene needs, and whether it is possible. InputError for terms that are not. */
-export function quoteOf(machine: Machine, scene: Scene, terms: EditionTerms): Quote {
+export function quoteOf(host: Host, scene: Scene, terms: EditionTerms): Quote {
     const name = checkedTerms(terms);
     // its state is that of this edition
-    const evm = machine.newEvm();
-    const [studio, collection] = [machine.addressOf("Studio"), machine.addressOf("Editions")];
+    const evm = host.newEvm();
+    const [studio, collection] = [host.addressOf("Studio"), host.addressOf("Editions")];
     const side = Math.max(scene.width ?? 128, scene.height ?? 128);
     const scale = Math.max(1, Math.min(MAX_SCALE, Math.floor(SIDE / side)));
     const { calls: storing, pointer } = store(evm, studio, scene);
@@ -66,7 +66,7 @@ export function quoteOf(machine: Machine, scene: Scene, terms: EditionTerms): Qu
     return {
         studio: toHex(studio),
         collection: toHex(collection),
-        code: machine.codeOf("Editions"),
+        code: host.codeOf("Editions"),
         scale,
         storing,
         stored: storing.reduce((sum, { code }) => sum + code.length - 1, 0),

@@ -6,7 +6,7 @@ import { checkedMesh, checkedScene, worldPositions } from "../../scene/checked.j
 import { encode } from "../../scene/encode.js";
 import { fit, type FittedScene } from "../../scene/fit.js";
 import type { Material, Scene, SceneObject } from "../../scene/types.js";
-import type { Machine } from "./machine.js";
+import type { Host } from "./host.js";
 import type { Stage } from "./protocol.js";
 
 /** The two greys of the checkerboard, and the side of its squares at 128 pixels. */
@@ -27,13 +27,13 @@ interface Dot {
 }
 
 /** Return the six stages in their order. */
-export function stagesOf(machine: Machine, scene: Scene): Stage[] {
+export function stagesOf(host: Host, scene: Scene): Stage[] {
     const sent = fit(checkedScene(scene));
     const points = pointsOf(sent);
     const faces = sent.objects.reduce((sum, { mesh }) => sum + mesh.faces.length / 3, 0);
     const inside = projected(sent, points);
-    const drawn = machine.draw(scene);
-    const counts = drawCall(machine.evm, withFunction(encode(scene), "renderCounted"));
+    const drawn = host.draw(scene);
+    const counts = drawCall(host.evm, withFunction(encode(scene), "renderCounted"));
     const plain: Scene = { ...scene, invert: false, antialias: false };
     const each = (change: (object: SceneObject) => SceneObject): Scene => ({
         ...plain,
@@ -48,9 +48,9 @@ export function stagesOf(machine: Machine, scene: Scene): Stage[] {
             withDots(sent, specified(sent, points)),
         ),
         stage("Vertex shader", `${say(inside.length)} points on the canvas`, withDots(sent, inside)),
-        stage("Primitive assembly", `${say(counts.triangles)} triangles left`, overNothing(machine, each(edges))),
-        stage("Rasterization", `${say(counts.litPixels)} pixels covered`, overNothing(machine, each(filled))),
-        stage("Fragment shader", lightsOf(scene), overNothing(machine, plain)),
+        stage("Primitive assembly", `${say(counts.triangles)} triangles left`, overNothing(host, each(edges))),
+        stage("Rasterization", `${say(counts.litPixels)} pixels covered`, overNothing(host, each(filled))),
+        stage("Fragment shader", lightsOf(scene), overNothing(host, plain)),
         stage("Compositing", `${drawn.width} x ${drawn.height} pixels, ${say(drawn.gas)} gas`, drawn),
     ];
 }
@@ -161,8 +161,8 @@ function filled(object: SceneObject): SceneObject {
 }
 
 /** Draw the fragments of a scene without its background: the pixels that do not depend on it. */
-function overNothing(machine: Machine, scene: Scene): Picture {
-    const [black, white] = ["#000000", "#ffffff"].map((background) => machine.draw({ ...scene, background }).pixels);
+function overNothing(host: Host, scene: Scene): Picture {
+    const [black, white] = ["#000000", "#ffffff"].map((background) => host.draw({ ...scene, background }).pixels);
     const picture = nothing(scene.width ?? 128, scene.height ?? 128);
     for (let at = 0; at < black!.length; at += 4) {
         const pixel = black!.subarray(at, at + 4);

@@ -7,11 +7,12 @@ import { checkedStages, type StageGas } from "../../evm/stages.js";
 import { hashPixels } from "../../picture.js";
 import type { Scene } from "../../scene/types.js";
 import type { PageAssets } from "../assets.js";
-import type { Document, MeshRef, Meshes } from "../document.js";
+import { keyOf, type Document, type Meshes } from "../../document/document.js";
+import { Pool, started, type WorkerLike } from "../../workers/pool.js";
 import { fitted } from "./fit.js";
 import { pageOf } from "./page.js";
 import { idAt } from "./pick.js";
-import { Pool, meshesOf, type Lane, type WorkerLike } from "./pool.js";
+import { NEEDS } from "./protocol.js";
 import type {
     Counts,
     Drawn,
@@ -27,8 +28,10 @@ import type {
     Supplies,
 } from "./protocol.js";
 
-export { Cancelled } from "./protocol.js";
+export { Cancelled } from "../../workers/protocol.js";
 export type { Counts, Drawn, EditionTerms, Limit, Options, Quote, Stage, StageGas, StoreCall } from "./protocol.js";
+
+export type Lane = "picture" | "background";
 
 /** lane: "picture" has a worker of its own, the default of `draw`; all else is for the others. */
 export interface DrawOptions extends Options {
@@ -48,6 +51,9 @@ export interface FilmOptions extends Options {
 }
 
 const MOST_WORKERS = 4;
+/** Milliseconds of rest after which the reserve draws new meshes, so that it remembers them, and the side of that picture. */
+const REST = 400;
+const SMALL = 16;
 const TYPES: Record<Format, string> = {
     png: "image/png",
     transparent: "image/png",
@@ -59,34 +65,46 @@ const TYPES: Record<Format, string> = {
 export class Work {
     readonly #assets: Pick<PageAssets, "bytes" | "text" | "json">;
     readonly #meshes: Meshes;
-    readonly #pool: Pool;
-    readonly #supplies = new Map<string, Promise<Supplies>>();
+    readonly #pool: Pool<Requests, Lane>;
+    readonly #supplies = new Map<keyof Supplies, Promise<Supplies[keyof Supplies]>>();
     readonly #ids = new WeakMap<Document, Promise<Requests["ids"][1]>>();
+    #timer: ReturnType<typeof setTimeout> | undefined;
 
     /** meshes: `need`, where it has one, loads those of a document. size: the number of workers, at least two. */
     constructor(
         assets: Pick<PageAssets, "bytes" | "text" | "json">,
         meshes: Meshes & { need?(doc: Document): Promise<void> },
-        start: () => WorkerLike = startWorker,
+        start: () => WorkerLike = () => started(script),
         size = Math.min(MOST_WORKERS, navigator.hardwareConcurrency),
     ) {
         this.#assets = assets;
         this.#meshes = meshes;
-        this.#pool = new Pool(
-            {
-                start,
-                supply: (name) => this.#supply(name),
-                meshes: async (doc) => {
-                    await meshes.need?.(doc);
-                    return meshesOf(doc, (ref: MeshRef) => meshes.get(ref));
-                },
-            },
-            size,
+        const supplies = async (kind: Kind, value: object): Promise<Map<string, unknown>> => {
+            const names = ["evm" as const, NEEDS[kind] ?? []].flat();
+            const kept = await Promise.all(names.map(async (name) => [name, await this.#supply(name)] as const));
+            const { doc } = value as { doc?: Document };
+            if (doc) await meshes.need?.(doc);
+            const own = doc?.objects.map(({ mesh }) => [keyOf(mesh), meshes.get(mesh)] as const) ?? [];
+            return new Map<string, unknown>([...kept, ...own]);
+        };
+        const lanes = { picture: 2, background: Math.max(1, size - 1) };
+        this.#pool = new Pool<Requests, Lane>(
+            { start, supplies: (kind, value) => supplies(kind, value as object) },
+            lanes,
         );
     }
 
-    draw(doc: Document, { lane = "picture", signal, width, height, antialias, bmp }: DrawOptions = {}): Promise<Drawn> {
-        return this.#pool.ask("draw", { doc, width, height, antialias, bmp }, lane, signal);
+    async draw(
+        doc: Document,
+        { lane = "picture", signal, width, height, antialias, bmp }: DrawOptions = {},
+    ): Promise<Drawn> {
+        const drawn = await this.#pool.ask("draw", { doc, width, height, antialias, bmp }, lane, { signal });
+        if (lane !== "picture") return drawn;
+        clearTimeout(this.#timer);
+        const small = { doc, width: SMALL, height: SMALL, antialias: false };
+        const keys = doc.objects.map(({ mesh }) => keyOf(mesh));
+        this.#timer = setTimeout(() => this.#pool.prepare("draw", small, lane, keys), REST);
+        return drawn;
     }
 
     count(doc: Document, options?: Options): Promise<Counts> {
@@ -211,11 +229,11 @@ export class Work {
 
     /** End all that was asked; each answer is Cancelled. */
     cancelAll(): void {
-        this.#pool.cancelAll();
+        this.#pool.stop();
     }
 
     #ask<K extends Kind>(kind: K, value: Requests[K][0], { signal }: Options = {}): Promise<Requests[K][1]> {
-        return this.#pool.ask(kind, value, "background", signal);
+        return this.#pool.ask(kind, value, "background", { signal });
     }
 
     async #file(
@@ -227,30 +245,21 @@ export class Work {
         return new Blob([await this.#ask("file", { doc, format, ...film }, options)], { type: TYPES[format] });
     }
 
-    #supply(name: "evm" | "more" | "stages"): Promise<Supplies> {
-        const kept = this.#supplies.get(name);
-        if (kept) return kept;
-        const loading = this.#load(name);
+    #supply<N extends keyof Supplies>(name: N): Promise<Supplies[N]> {
+        const loading = this.#supplies.get(name) ?? this.#load(name);
         this.#supplies.set(name, loading);
         // what could not be loaded may be there later
         loading.catch(() => this.#supplies.delete(name));
-        return loading;
+        return loading as Promise<Supplies[N]>;
     }
 
-    async #load(name: "evm" | "more" | "stages"): Promise<Supplies> {
-        if (name === "more") return { more: await this.#assets.json<More>("more.json") };
-        if (name === "stages") return { stages: checkedStages(await this.#assets.json("stages.json")) };
+    async #load(name: keyof Supplies): Promise<Supplies[keyof Supplies]> {
+        if (name === "more") return this.#assets.json<More>("more.json");
+        if (name === "stages") return checkedStages(await this.#assets.json("stages.json"));
         const [module, contracts] = await Promise.all([
             this.#assets.bytes("evm.wasm").then(compile),
             this.#assets.json("contracts.json").then(checkedContracts),
         ]);
-        return { evm: { module, contracts } };
+        return { module, contracts };
     }
-}
-
-let url: string | null = null;
-
-function startWorker(): WorkerLike {
-    url ??= URL.createObjectURL(new Blob([script], { type: "text/javascript" }));
-    return new Worker(url) as WorkerLike;
 }

@@ -1,23 +1,8 @@
 // The worker: it keeps contracts and meshes, and answers one request after the other.
 
-import { Machine } from "./machine.js";
-import type { Message, Reply } from "./protocol.js";
+import { serve } from "../../workers/serve.js";
+import { Host } from "./host.js";
+import { handlersOf } from "./machine.js";
 
-const machine = new Machine();
-/** Requests are answered in their order, as one may wait for a library that simplifies. */
-let last = Promise.resolve();
-
-self.onmessage = ({ data }: MessageEvent<Message>) => {
-    last = last.then(async () => {
-        const reply = await machine.reply(data);
-        if (reply) self.postMessage(reply, { transfer: buffersOf(reply) });
-    });
-};
-
-/** Return the buffers of an answer that are not copied but handed over. */
-function buffersOf(reply: Reply): ArrayBuffer[] {
-    const value = "value" in reply ? reply.value : null;
-    if (value instanceof Uint8Array) return [value.buffer as ArrayBuffer];
-    const { pixels, bmp } = (value ?? {}) as { pixels?: Uint8ClampedArray; bmp?: Uint8Array };
-    return [pixels, bmp].flatMap((bytes) => (bytes instanceof Object ? [bytes.buffer as ArrayBuffer] : []));
-}
+const host = new Host();
+serve(handlersOf(host), host.keep, () => host.compile());

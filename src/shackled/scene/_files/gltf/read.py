@@ -12,8 +12,8 @@ import numpy as np
 
 from ....errors import InputError, warn
 from ..._crease import filled
+from ..._fields import FIELDS
 from ..._mesh import face_normals, weld
-from ..._object import EXPONENTS
 from ..model import MeshPart, tinted
 from .animation import posed
 from .document import Document
@@ -22,6 +22,8 @@ from .primitives import Piece, in_place, pieces_of
 
 #: The exponent of the widest highlights; even wider ones only fade the colours.
 _WIDEST = 10
+#: That of the narrowest.
+_NARROWEST = FIELDS["Material"]["shininess"].limits[1]
 
 
 @np.errstate(all="ignore")
@@ -98,7 +100,7 @@ def _material(pieces: Sequence[Piece]) -> dict[str, Any]:
     # Beckmann's roughness of a Blinn-Phong exponent; the strength of highlights is a matter of taste
     return fields | {
         "specular": round((0.8 + 0.3 * metalness) * (1 - roughness), 3),
-        "shininess": round(min(max(2 / max(roughness, 0.1) ** 4 - 2, _WIDEST), EXPONENTS[1])),
+        "shininess": round(min(max(2 / max(roughness, 0.1) ** 4 - 2, _WIDEST), _NARROWEST)),
     }
 
 

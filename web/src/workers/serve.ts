@@ -1,0 +1,76 @@
+// The worker's side: it keeps what it is given, and answers requests.
+
+import { errorOf, toldOf, type Message, type Reply, type Table } from "./protocol.js";
+
+/** What a handler can tell the page, and ask of it. */
+export interface Asking {
+    onProgress(what: string): void;
+    /** Return things that the page has, by their keys. InputError where it has not. */
+    need(keys: readonly string[]): Promise<unknown[]>;
+}
+
+export type Handlers<R extends Table<R>> = {
+    [K in keyof R]: (value: R[K][0], page: Asking) => R[K][1] | Promise<R[K][1]>;
+};
+
+/** Return what does as messages say, and tells what comes of it. keep: takes what is given. */
+export function answering<R extends Table<R>>(
+    handlers: Handlers<R>,
+    keep: (key: string, value: unknown) => void,
+): (message: Message, tell: (reply: Reply) => void) => Promise<void> {
+    const lacking = new Map<string, { found: Promise<unknown>; end(of: { value: unknown } | Error): void }>();
+    const ask = (key: string): void => {
+        let end = (_: { value: unknown } | Error): void => undefined;
+        const found = new Promise((resolve, reject) => {
+            end = (of) => (of instanceof Error ? reject(of) : resolve(of.value), void lacking.delete(key));
+        });
+        lacking.set(key, { found, end });
+    };
+    return async (message, tell) => {
+        if ("give" in message) {
+            for (const [key, value] of message.give) {
+                keep(key, value);
+                lacking.get(key)?.end({ value });
+            }
+            return;
+        }
+        if ("keys" in message) {
+            for (const key of message.keys) lacking.get(key)?.end(errorOf(message.error));
+            return;
+        }
+        const { id, kind, value } = message;
+        const page: Asking = {
+            onProgress: (progress) => tell({ id, progress }),
+            need: (keys) => {
+                const lacks = keys.filter((key) => !lacking.has(key));
+                lacks.forEach(ask);
+                if (lacks.length) tell({ id, lacks });
+                return Promise.all(keys.map((key) => lacking.get(key)?.found));
+            },
+        };
+        try {
+            tell({ id, value: await handlers[kind as keyof R](value as object, page) });
+        } catch (error) {
+            tell({ id, error: toldOf(error) });
+        }
+    };
+}
+
+/** Answer what the page asks this worker. after: is called after each answer. */
+export function serve<R extends Table<R>>(
+    handlers: Handlers<R>,
+    keep: (key: string, value: unknown) => void = () => undefined,
+    after: () => unknown = () => undefined,
+): void {
+    const answer = answering(handlers, keep);
+    const tell = (reply: Reply): void => self.postMessage(reply, { transfer: buffersOf(reply) });
+    self.onmessage = ({ data }: MessageEvent<Message>) => void answer(data, tell).then(after);
+}
+
+/** Return the buffers of an answer that are not copied but handed over. */
+function buffersOf(reply: Reply): ArrayBuffer[] {
+    const value = "value" in reply ? reply.value : null;
+    if (value instanceof Uint8Array) return [value.buffer as ArrayBuffer];
+    const { pixels, bmp } = (value ?? {}) as { pixels?: Uint8ClampedArray; bmp?: Uint8Array };
+    return [pixels, bmp].flatMap((bytes) => (bytes instanceof Object ? [bytes.buffer as ArrayBuffer] : []));
+}
