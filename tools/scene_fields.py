@@ -1,5 +1,6 @@
-"""Make of contracts/scene_fields.toml, the table of what scenes are made of, scene/_fields.py and scene/_constants.py of
-the package, types.ts, fields.ts and constants.ts of web/src/scene, and tables of docs/scene-files.md.
+"""Make the files of contracts/scene_fields.toml, the table of what scenes are made of: scene/_fields.py and
+scene/_constants.py of the package, types.ts, fields.ts and constants.ts of web/src/scene, and tables of
+docs/scene-files.md.
 """
 
 from __future__ import annotations

@@ -10,7 +10,6 @@ import pytest
 from tools import scene_fields
 
 import shackled
-import shackled.scene
 from shackled.errors import InputError
 from shackled.scene import Hemisphere
 from shackled.scene._fields import FIELDS
@@ -18,8 +17,8 @@ from shackled.scene._fields import FIELDS
 TABLE = tomllib.loads(scene_fields.TABLE.read_text("utf-8"))
 #: Names of fields of Python, where they are others: a light has one vector for its direction or its position, a texture
 #: has its size from its pixels.
-CLASSES = {name: getattr(shackled, name, Hemisphere) for name in FIELDS}
 OTHERS = {"Light": {"position": "vector"}, "Texture": {"width": "pixels", "height": "pixels"}}
+CLASSES = {name: getattr(shackled, name, Hemisphere) for name in FIELDS}
 
 
 @pytest.mark.parametrize("name", FIELDS)
@@ -42,7 +41,7 @@ NEEDED: dict[str, dict[str, Any]] = {
 
 @pytest.mark.parametrize("name", FIELDS)
 def test_values_beyond_the_range_are_refused(name: str) -> None:
-    kind = getattr(shackled.scene, name)
+    kind = CLASSES[name]
     for key, row in TABLE[name]["fields"].items():
         limits = row.get("range", [])
         if row.get("only") == "file" or name == "Texture" or not limits:
