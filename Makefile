@@ -18,7 +18,7 @@ endif
 # the tests, which takes as long as they do to be collected.
 unexport PYTHONDONTWRITEBYTECODE
 .DEFAULT_GOAL := help
-.PHONY: help browser opengl rust demo page creator check test lint types contracts evm evm-check web docs fast unit verify build npm release-check gas golden bench paper fuzz models mutants conformance pictures clean
+.PHONY: help browser opengl rust demo page creator check test lint types contracts evm evm-check web docs fast unit verify build npm release-check generated gas golden bench paper fuzz models mutants conformance pictures clean
 
 help: ## show this list
 	@sed -n 's/^\([a-z-]*\):.*## \(.*\)/make \1 \t\2/p' Makefile | expand -t 18
@@ -74,8 +74,7 @@ evm-check: $(DEV) rust ## build evm/ again, and check that evm.wasm has the same
 	$(BIN)/python tools/build_evm.py --check
 
 web: $(NODE) $(DEV) ## check types, style, tests and bundles of the TypeScript package
-	$(BIN)/python tools/page_settings.py --check
-	$(BIN)/python -m tools.scene_fields --check
+	$(BIN)/python -m tools.generated --check
 	npm --prefix web run --silent check
 	npm --prefix web run --silent test
 	$(BIN)/python tools/build_web.py --check
@@ -93,10 +92,14 @@ unit: $(NODE) page $(DEV) browser opengl ## run the tests of Python and of the c
 
 build: $(NODE) $(DEV) ## compile the contracts into src/shackled/artifacts, bundle web/ into src/shackled/web, make build/npm
 	$(BIN)/python tools/build_contracts.py
-	$(BIN)/python tools/library.py
+	$(BIN)/python -m tools.generated
 	$(BIN)/python tools/build_contracts.py --group library
 	$(BIN)/python -m tools.build_package
 	$(BIN)/python tools/build_web.py
+
+generated: $(DEV) ## write the files that are made of tables, and the tables of README and docs
+	$(BIN)/python -m tools.generated
+	$(BIN)/python -m tools.readme
 
 npm: $(CONTRACTS) $(PACKAGE) ## build the npm package for contract authors into build/npm
 	$(BIN)/python -m tools.build_package
@@ -118,7 +121,7 @@ gas: $(DEV) ## write the gas snapshots, benchmarks/gas.json, studio.json, tokens
 golden: $(DEV) ## write tests/support/golden.json: digests of pixels, and gas, of small scenes of every kind
 	$(BIN)/python tests/support/golden.py --write
 
-bench: $(DEV) opengl ## measure, and write the tables of benchmarks/, of the README and of docs/
+bench: $(NODE) page $(DEV) opengl browser ## measure, and write the tables of benchmarks/, of the README and of docs/
 	$(BIN)/python -m benchmarks
 	$(BIN)/python -m benchmarks.looks
 	$(BIN)/python -m benchmarks.fitting
@@ -133,6 +136,11 @@ bench: $(DEV) opengl ## measure, and write the tables of benchmarks/, of the REA
 	$(BIN)/python -m benchmarks.money
 	$(BIN)/python -m benchmarks.look_quality
 	$(BIN)/python -m benchmarks.client_workload
+	$(BIN)/python -m benchmarks.effects
+	$(BIN)/python -m benchmarks.textures
+	$(BIN)/python -m benchmarks.evms
+	$(BIN)/python -m benchmarks.view --write
+	$(BIN)/python -m benchmarks.preview
 	$(BIN)/python -m tools.readme
 
 paper: $(NODE) $(DEV) ## repeat the experiments of the paper: benchmarks/results, benchmarks/README.md

@@ -14,7 +14,8 @@ from attrs import evolve
 from tools.pages import ROOT, update
 
 from shackled import Scene, render
-from shackled.datasets import pieces, require
+from shackled.datasets import pieces
+from shackled.datasets._pieces import require
 
 from . import run_main, shared
 

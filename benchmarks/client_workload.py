@@ -14,11 +14,11 @@ import json
 from pathlib import Path
 
 from shackled.artifacts import RENDERER
-from shackled.chain import RevmChain
+from shackled.chain._embedded import RevmChain
 from shackled.errors import ChainError
-from shackled.ethereum import keccak256, to_hex
-from shackled.evm import Answer, Instance, Status
-from shackled.scene import render_call
+from shackled.ethereum._encoding import keccak256, to_hex
+from shackled.evm._instance import Answer, Instance, Status
+from shackled.scene._codec import render_call
 
 from . import run_main
 from .evms import PICTURES, scene

@@ -7,15 +7,18 @@ from dataclasses import dataclass
 from statistics import fmean, median
 
 import numpy as np
-from tools.tokens.stage import LIMIT, PRICE, Stage, icon_scene, stage, store_scene
+from tools.tokens.launched import LIMIT, PRICE, Launched, icon_scene, launched, store_scene
 from tools.tokens.world import GAS, Contract
 
 from shackled import ChainError, Scene
 from shackled.artifacts import artifact
-from shackled.bench import call, call_renderer, gas, millions, original, table
-from shackled.datasets import icons, require
+from shackled.bench._measure import call, call_renderer, gas
+from shackled.bench._original import original
+from shackled.bench._report import millions, table
+from shackled.datasets import icons
+from shackled.datasets._pieces import require
 from shackled.datasets.genesis import seed_of
-from shackled.ethereum import intrinsic_gas
+from shackled.ethereum._encoding import intrinsic_gas
 from shackled.gas import render_call
 
 from . import Section, shared
@@ -219,20 +222,20 @@ def icon_row() -> Row:
 
 def genesis_uris() -> list[int]:
     """Return the execution gas of `GenesisMetadata.tokenURI` for each seed."""
-    s = stage()
+    s = launched()
     calls = (s.metadata.encode("tokenURI", (number, seed_of(number)))[1] for number in range(PIECES))
     return [s.world.run(s.bob, s.metadata.address, data, 0, GAS, False, []).execution for data in calls]
 
 
 def icon_uris() -> dict[str, int]:
     """Return the execution gas of `IconsCollection.tokenURI` by the name of the icon, enlarged four times."""
-    s = stage()
+    s = launched()
     names = [piece.name for piece in icons.pieces()]
     collection = with_icons(s, names)
     return {name: collection.gas_of("tokenURI", token) for token, name in enumerate(names)}
 
 
-def with_icons(s: Stage, names: list[str]) -> Contract:
+def with_icons(s: Launched, names: list[str]) -> Contract:
     """Deploy a collection with one token of each icon."""
     collection = s.world.deploy("IconsCollection", s.studio, (s.owner, LIMIT, s.owner, 500), sender=s.owner)
     for name in names:

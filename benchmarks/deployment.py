@@ -30,16 +30,16 @@ from tools.pages import ROOT, update
 
 from shackled import load
 from shackled.chain import open_chain
-from shackled.deploy import Deployment, deployments
-from shackled.deploy._contract import PROXY_CODE
+from shackled.deploy import deployments
+from shackled.deploy._contract import PROXY_CODE, Deployment
 from shackled.errors import ChainError
-from shackled.ethereum import PROXY
-from shackled.evm import Instance, Status
+from shackled.ethereum._encoding import PROXY
+from shackled.evm._instance import Instance, Status
 from shackled.library import items
-from shackled.scene import fit, pack
-from shackled.studio import STUDIO, StoreTransaction
+from shackled.scene._in_range import in_range
+from shackled.scene._packed import pack
 from shackled.studio._compact_mesh import compact
-from shackled.studio._storage import quantize, store_mesh
+from shackled.studio._storage import STUDIO, StoreTransaction, quantize, store_mesh
 
 from . import run_main
 
@@ -149,7 +149,7 @@ def storing_table(costs: dict[str, Cost]) -> str:
 def mesh_costs() -> dict[str, Cost]:
     """Return the costs of storing a mesh of about a thousand triangles, as it is and rounded."""
     studio = open_chain().address(STUDIO)
-    (exact,) = fit(load("teapot")).objects
+    (exact,) = in_range(load("teapot")).objects
     costs = {}
     for name, o, normal_bits in (
         ("a smooth mesh of {} triangles, exact", exact, 10),

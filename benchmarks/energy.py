@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from math import floor, log10
 
-from shackled.bench import table
+from shackled.bench._report import table
 
 BLOCKS_PER_YEAR = 365.25 * 24 * 3600 / 12
 

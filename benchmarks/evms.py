@@ -29,9 +29,14 @@ from tools.anvil import Anvil, find_anvil
 from tools.page_server import browser_path, chromium
 
 from shackled import Scene, load
-from shackled.chain import CHAINS, ContractChain, NodeChain, RevmChain, open_chain, open_node
-from shackled.evm import module_bytes
-from shackled.scene import LookOptions, render_call
+from shackled.chain import open_chain, open_node
+from shackled.chain._chain import ContractChain
+from shackled.chain._embedded import RevmChain
+from shackled.chain._node import NodeChain
+from shackled.chain._opening import CHAINS
+from shackled.evm._module import module_bytes
+from shackled.scene._codec import render_call
+from shackled.scene._settings import LookOptions
 
 from . import run_main
 

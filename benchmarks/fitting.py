@@ -22,7 +22,7 @@ from PIL import Image as PillowImage
 from tools.pages import ROOT, update
 
 from shackled import Image, Scene, load, render
-from shackled.scene import simplify_scene
+from shackled.scene._simplify import simplify_scene
 
 from . import flip, run_main, shared
 

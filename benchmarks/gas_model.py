@@ -19,11 +19,12 @@ from numpy.typing import NDArray
 from tools.models import packages
 
 from shackled import InputError, Scene, load
-from shackled.bench import gas, table
-from shackled.bench._report import wrapped
+from shackled.bench._measure import gas
+from shackled.bench._report import table, wrapped
 from shackled.datasets.common import shapes
 from shackled.errors import InputWarning
-from shackled.scene import LookOptions, Mesh
+from shackled.scene._mesh import Mesh
+from shackled.scene._settings import LookOptions
 
 from . import publish, read_figures, run_main
 from .workload import workload_of

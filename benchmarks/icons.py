@@ -12,13 +12,13 @@ from pathlib import Path
 
 from attrs import evolve
 from tools.pages import ROOT, update
-from tools.tokens.stage import PRICE, stage, store_scene
+from tools.tokens.launched import PRICE, launched, store_scene
 from tools.tokens.world import Refused
 
 from shackled.datasets import pieces
-from shackled.ethereum import intrinsic_gas
-from shackled.scene import resize
-from shackled.tokens import SCALE
+from shackled.ethereum._encoding import intrinsic_gas
+from shackled.scene._look import resize
+from shackled.tokens._icons import SCALE
 
 from . import read_figures, run_main, write_figures
 
@@ -37,7 +37,7 @@ Figures = dict[str, dict[str, int | bool]]
 
 def take() -> Figures:
     """Measure the collection of all icons, each once plain and once antialiased."""
-    s = stage()
+    s = launched()
     collection = s.world.deploy("IconsCollection", s.studio, (s.owner, 10, s.owner, 500), sender=s.owner)
     icons = list(pieces("icons"))
     for piece in icons:

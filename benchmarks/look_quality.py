@@ -21,9 +21,10 @@ from PIL import Image as PillowImage
 from tools.pages import ROOT
 
 from shackled import Rim, Scene, Tone, load, render
-from shackled.bench import table
-from shackled.bench._report import wrapped
-from shackled.scene import Hemisphere, fit, render_call
+from shackled.bench._report import table, wrapped
+from shackled.scene import Hemisphere
+from shackled.scene._codec import render_call
+from shackled.scene._in_range import in_range
 
 sys.path.insert(0, str(ROOT / "tests" / "support"))
 sys.path.insert(0, str(ROOT / "tests"))
@@ -80,7 +81,7 @@ LOOKS: dict[str, tuple[Callable[[str], Scene], dict[str, Callable[[Scene], Scene
 def truth(scene: Scene) -> Pixels:
     """Return the picture in float64, (H, W, 3), from 0 to 255."""
     large = evolve(scene, width=FINER * scene.width, height=FINER * scene.height)
-    exact = in_float64(render_call(fit(large))).exact
+    exact = in_float64(render_call(in_range(large))).exact
     return np.asarray(exact.reshape(scene.height, FINER, scene.width, FINER, 3).mean(axis=(1, 3)))
 
 

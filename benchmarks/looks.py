@@ -17,8 +17,9 @@ from attrs import evolve
 from tools.pages import ROOT, update
 
 from shackled import Scene, load, render
-from shackled.bench import gas
-from shackled.gas import KINDS, profile
+from shackled.bench._measure import gas
+from shackled.gas import profile
+from shackled.gas._profile import KINDS
 from shackled.scene._object import Shading
 
 from . import antialiasing, cost, read_figures, run_main, shared, write_figures

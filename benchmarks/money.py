@@ -19,9 +19,10 @@ from pathlib import Path
 
 from shackled import Scene, load
 from shackled.artifacts import artifact
-from shackled.bench import call_renderer, table
+from shackled.bench._measure import call_renderer
+from shackled.bench._report import table
 from shackled.bench.scenes import cube
-from shackled.ethereum import intrinsic_gas
+from shackled.ethereum._encoding import intrinsic_gas
 from shackled.scene import encode
 
 from . import publish, read_figures, run_main

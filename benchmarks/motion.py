@@ -13,10 +13,12 @@ from tools.pages import ROOT, update
 
 from shackled import Scene
 from shackled.artifacts import artifact
-from shackled.chain import open_chain, returned_bytes
+from shackled.chain import open_chain
+from shackled.chain._chain import returned_bytes
 from shackled.datasets import pieces
-from shackled.scene import resize
-from shackled.studio import ANIMATE, store_scene
+from shackled.scene._look import resize
+from shackled.studio import store_scene
+from shackled.studio._storage import ANIMATE
 
 from . import read_figures, run_main, write_figures
 

@@ -19,15 +19,18 @@ from tools.anvil import Anvil, AnvilChain, find_anvil
 from tools.cluster import cluster
 
 from shackled import Cluster, Nodes, Processes, Scene
-from shackled._on import Place, place_of
-from shackled.bench import gas, millions, table
-from shackled.chain import RevmChain, open_chain
-from shackled.datasets import require
+from shackled.bench._measure import gas
+from shackled.bench._report import millions, table
+from shackled.chain import open_chain
+from shackled.chain._embedded import RevmChain
+from shackled.datasets._pieces import require
 from shackled.parallel import Listener
 from shackled.parallel._backends import Backend, ChainBackend, Part
 from shackled.parallel._scheduler import Scheduler
 from shackled.parallel._tiles import grid
-from shackled.scene import Rectangle, full_turn
+from shackled.parallel.places import Embedded, Place
+from shackled.scene._codec import Rectangle
+from shackled.scene._turning import full_turn
 
 from . import Section, run_main, shared
 
@@ -122,7 +125,7 @@ def throughput() -> Section:
 def opened(stack: ExitStack) -> dict[str, list[Backend]]:
     """Open the backends, which close with the stack."""
     wanted: dict[str, Place] = {
-        "this process": place_of(None),
+        "this process": Embedded(),
         "2 threads": Processes(2),
         "dask, 1 worker": Cluster(stack.enter_context(cluster(1))[0]),
         "dask, 2 workers": Cluster(stack.enter_context(cluster(2))[0]),

@@ -8,78 +8,17 @@ seconds until the first 16 tokens and until all 256 are there. Needs Node and th
 
 from __future__ import annotations
 
-import json
-import re
-import shlex
-import subprocess
-import sys
 import tempfile
 import time
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any, Self
-from urllib.request import urlopen
+from typing import Any
 
-from tools import build_package
-from tools.pages import ROOT
+from tools.tokens.tutorial import SOURCE, TOKENS, Server, make_project
 
 from . import run_main
 
-PAGE = ROOT / "docs" / "token-tutorial.md"
-MODULES = ROOT / "contracts" / "node_modules"
-SOURCE = "src/Totems.sol"
-FIRST, ALL = 16, 256
-SAVES = 3
-
-
-def make_project(folder: Path) -> None:
-    """Write the files of the tutorial beside the packages that it installs."""
-    text = PAGE.read_text("utf-8")
-    for name, content in re.findall(r"^([\w./]+):\n\n```\w*\n(.*?)^```$", text, re.M | re.S):
-        path = folder / name
-        path.parent.mkdir(exist_ok=True)
-        path.write_text(content, "utf-8")
-    modules = folder / "node_modules"
-    modules.mkdir()
-    for name in ("erc721a", "solady", "solc", ".bin"):
-        (modules / name).symlink_to(MODULES / name)
-    build_package.build(modules / "shackled-contracts")
-
-
-def command() -> list[str]:
-    """Return the arguments of the tutorial's preview."""
-    match = re.search(rf"^shackled (preview {SOURCE} .*)$", PAGE.read_text("utf-8"), re.M)
-    if match is None:
-        raise SystemExit(f"{PAGE} has no command that previews {SOURCE}")
-    return shlex.split(match[1])
-
-
-class Server:
-    """A preview of the project in a folder, which runs while the context is open."""
-
-    def __init__(self, folder: Path) -> None:
-        """Take the folder of the project."""
-        self.folder = folder
-
-    def __enter__(self) -> Self:
-        program = [sys.executable, "-u", "-m", "shackled", *command(), "--port", "0", "--no-browser"]
-        self.process = subprocess.Popen(
-            program, cwd=self.folder, stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, text=True
-        )
-        lines = iter(self.process.stdout or ())
-        self.url = next(filter(None, (re.search(r"http://[\d.:]+", line) for line in lines)))[0]
-        return self
-
-    def __exit__(self, *_: object) -> None:
-        self.process.terminate()
-        self.process.communicate()
-
-    def messages(self) -> Iterator[dict[str, Any]]:
-        """Yield what the server tells its pages."""
-        with urlopen(f"{self.url}/events") as stream:
-            for line in stream:
-                if line.startswith(b"data: "):
-                    yield json.loads(line[6:])
+FIRST, SAVES = 16, 3
 
 
 def seconds_of_a_save(told: Iterator[dict[str, Any]], source: Path) -> dict[str, float]:
@@ -99,9 +38,9 @@ def seconds_of_a_save(told: Iterator[dict[str, Any]], source: Path) -> dict[str,
             seconds["compiled and deployed"] = passed
         if "token" in message:
             count += 1
-            if count in (FIRST, ALL):
+            if count in (FIRST, TOKENS):
                 seconds[f"{count} tokens"] = passed
-            if count == ALL:
+            if count == TOKENS:
                 break
     return seconds
 

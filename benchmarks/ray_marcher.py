@@ -18,12 +18,14 @@ from numpy.typing import NDArray
 from tools.build_contracts import compile_once, request, settings
 
 from shackled import Background, Camera, Light, Material, Object, Scene, render
-from shackled.bench import table
+from shackled.bench._report import table
 from shackled.datasets.common import shapes
 from shackled.errors import RenderError
-from shackled.ethereum import Interface
-from shackled.evm import Instance, Status
-from shackled.scene import Mesh, from_euler, painted, rotate
+from shackled.ethereum._abi import Interface
+from shackled.evm._instance import Instance, Status
+from shackled.scene._arithmetic import from_euler, rotate
+from shackled.scene._mesh import Mesh
+from shackled.scene._staging import painted
 
 from . import flip, publish, read_figures, run_main
 

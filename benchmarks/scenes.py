@@ -7,8 +7,10 @@ from typing import Unpack
 from shackled import Camera, Light, Material, Object, Scene
 from shackled.bench.scenes import DISTANCE, GLOSSY, NIGHT, SUN, UNLIT, cube_mesh
 from shackled.datasets import teapot
-from shackled.scene import LookOptions, from_euler, stage
+from shackled.scene import stage
+from shackled.scene._arithmetic import from_euler
 from shackled.scene._object import Shading
+from shackled.scene._settings import LookOptions
 
 #: About a thousand triangles, as the models of the cost table have.
 TEAPOT = teapot(4)

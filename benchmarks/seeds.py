@@ -14,7 +14,7 @@ from statistics import fmean, median
 
 from eth_utils.crypto import keccak
 from tools.pages import ROOT, update
-from tools.tokens.stage import stage
+from tools.tokens.launched import launched
 from tools.tokens.world import GAS
 
 from . import run_main
@@ -27,7 +27,7 @@ LIMIT = 10_000_000
 
 def uris(count: int) -> list[int]:
     """Return the execution gas of `GenesisMetadata.tokenURI` for random seeds."""
-    s = stage()
+    s = launched()
     gas = []
     for number in range(count):
         _, data = s.metadata.encode("tokenURI", (number, keccak(text=f"random-{number}")))

@@ -13,7 +13,8 @@ from attrs import evolve
 from tools.pages import ROOT, update
 
 from shackled import Camera, Ground, Light, Material, Object, Scene, load, render
-from shackled.datasets import pieces, require
+from shackled.datasets import pieces
+from shackled.datasets._pieces import require
 from shackled.datasets.common.shapes import sphere
 
 from . import run_main

@@ -13,12 +13,13 @@ from attrs import evolve
 
 from shackled import Camera, Light
 from shackled.artifacts import artifact
-from shackled.bench import call, deployment_gas, gas
 from shackled.bench import scenes as paper
+from shackled.bench._deploy import deployment_gas
+from shackled.bench._measure import call, gas
 from shackled.bench.scenes import GLOSSY, SUN, UNLIT, cube_mesh, square, turned_cube
 from shackled.datasets.genesis import seed_of
-from shackled.deploy import STANDARD
-from shackled.scene import Rectangle
+from shackled.deploy._contract import STANDARD
+from shackled.scene._codec import Rectangle
 
 from . import read_figures, run_main, shared, unit_costs, write_figures
 from .original.documents import call_data, document, mesh_keys

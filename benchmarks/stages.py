@@ -10,8 +10,9 @@ from __future__ import annotations
 import argparse
 
 from shackled import Scene, load
-from shackled.bench import millions, table
-from shackled.gas import STAGES, profile
+from shackled.bench._report import millions, table
+from shackled.gas import profile
+from shackled.gas._stages import STAGES
 from shackled.parallel._bands import BAND_PIXELS
 
 from . import Section, run_main, shared

@@ -14,10 +14,11 @@ from statistics import fmean
 from tools.pages import update
 
 from shackled.artifacts import RENDERER
-from shackled.bench import DEPLOYMENT_GAS, EXPERIMENTS, original, original_gas
+from shackled.bench._original import DEPLOYMENT_GAS, original, original_gas
 from shackled.bench._report import wrapped
+from shackled.bench._runner import EXPERIMENTS
 from shackled.bench.scenes import cube
-from shackled.ethereum import intrinsic_gas
+from shackled.ethereum._encoding import intrinsic_gas
 from shackled.scene import encode
 
 from . import README, energy, run_main

@@ -17,10 +17,13 @@ from tools.pages import ROOT, update
 from shackled import Object, load, render
 from shackled.artifacts import artifact
 from shackled.chain import open_chain
-from shackled.datasets import require, teapot
+from shackled.datasets import teapot
+from shackled.datasets._pieces import require
 from shackled.datasets.genesis import generate_on_chain, picture_on_chain, seed_of
 from shackled.image import encode_bmp
-from shackled.scene import fit, pack, stage
+from shackled.scene import stage
+from shackled.scene._in_range import in_range
+from shackled.scene._packed import pack
 from shackled.studio import store_scene
 from shackled.studio._compact_mesh import compact
 from shackled.studio._storage import quantize, store_mesh
@@ -80,7 +83,7 @@ def mesh_figures(keeper: Keeper) -> Figures:
     ):
         if bits is not None:
             scene = evolve(scene, objects=[quantize(o, bits) for o in scene.objects])
-        (o,) = fit(scene).objects
+        (o,) = in_range(scene).objects
         size, storing, reading = keeper.kept_mesh(o, normal_bits)
         figures |= {f"{name}: bytes": size, f"{name}: store": storing, f"{name}: decode": reading}
     figures[SCENE] = store_scene(require("icons/crown").make(), keeper.studio)[-1].gas

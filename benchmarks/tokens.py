@@ -11,8 +11,8 @@ import statistics
 from pathlib import Path
 
 from tools.pages import update
+from tools.tokens.launched import ALLOW_LIST, ICONS, LIMIT, PRICE, Launched, icon_scene, launched, store_scene
 from tools.tokens.merkle import proof_of, root_of
-from tools.tokens.stage import ALLOW_LIST, ICONS, LIMIT, PRICE, Stage, icon_scene, stage, store_scene
 from tools.tokens.world import GAS, ZERO, account, keccak
 
 from shackled.datasets.genesis import seed_of
@@ -33,7 +33,7 @@ Figures = dict[str, int]
 
 def take(seeds: int = SEEDS) -> Figures:
     """Measure all figures: gas of transactions with intrinsic gas, that of calls without."""
-    s = stage()
+    s = launched()
     contracts = {"GenesisCollection": s.genesis, "GenesisMetadata": s.metadata, "IconsCollection": s.icons}
     figures = {f"deploy {name}": contract.gas for name, contract in contracts.items()}
     with s.world.attempt():
@@ -80,7 +80,7 @@ def take(seeds: int = SEEDS) -> Figures:
     return figures
 
 
-def editions(s: Stage) -> Figures:
+def editions(s: Launched) -> Figures:
     """Measure the collection to which anyone can add scenes."""
     contract = s.world.deploy("Editions", s.studio)
     figures = {"deploy Editions": contract.gas}
@@ -98,7 +98,7 @@ def editions(s: Stage) -> Figures:
     return figures
 
 
-def reveals(s: Stage) -> Figures:
+def reveals(s: Launched) -> Figures:
     """Measure the reveals of rounds."""
     figures = {}
     for count in (1, 5, 20):
@@ -116,7 +116,7 @@ def reveals(s: Stage) -> Figures:
     return figures
 
 
-def added(s: Stage) -> int:
+def added(s: Launched) -> int:
     """Return the gas that the collection adds to `tokenURI`."""
     address = bytes.fromhex(s.genesis.address[2:]).rjust(32, b"\0")
     drawn = keccak(s.genesis.call("randomnessOf", 0) + address + (1).to_bytes(32, "big"))
@@ -124,7 +124,7 @@ def added(s: Stage) -> int:
     return s.genesis.gas_of("tokenURI", 1) - s.metadata.gas_of("tokenURI", 1, drawn)
 
 
-def token_uris(s: Stage, seeds: int) -> Figures:
+def token_uris(s: Launched, seeds: int) -> Figures:
     """Measure gas and length over seeds, without what the collection adds."""
     gas, lengths = [], []
     for number in range(seeds):

@@ -11,7 +11,7 @@ import numpy as np
 from attrs import evolve
 
 from shackled import Camera, Material, Mesh, Object, Scene
-from shackled.bench import gas
+from shackled.bench._measure import gas
 from shackled.bench.scenes import DISTANCE, NIGHT, SUN, grid
 from shackled.scene._object import Shading
 

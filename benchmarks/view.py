@@ -28,9 +28,9 @@ from typing import Any
 from tools.page_server import chromium, static
 
 from shackled import load
-from shackled.datasets import require
-from shackled.evm import module_bytes
-from shackled.scene import render_call
+from shackled.datasets._pieces import require
+from shackled.evm._module import module_bytes
+from shackled.scene._codec import render_call
 
 from . import run_main
 

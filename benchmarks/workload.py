@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from shackled import Scene
 from shackled.chain import open_chain
-from shackled.scene import fit
+from shackled.scene._in_range import in_range
 from shackled.stages import project
 
 
@@ -34,7 +34,7 @@ def workload_of(scene: Scene) -> Workload:
     """Count the work of a scene that the near plane does not clip."""
     drawn, lit = open_chain().count(scene)
     rows = tested = 0
-    for corners in _triangles(fit(scene)):
+    for corners in _triangles(in_range(scene)):
         low, high = (int(each) for each in np.ceil(corners[:, 1].clip(0, scene.height)[[0, 2]] - 0.5))
         rows += high - low
         tested += _covered(corners, np.arange(low, high, dtype=np.float64) + 0.5, scene.width)

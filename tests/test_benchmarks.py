@@ -20,9 +20,11 @@ from benchmarks.workload import workload_of
 from compiler import needs_compiler
 from evms import pyrevm_call
 from shackled import render
-from shackled.bench import EXPERIMENTS, _linear, fits, gas
+from shackled.bench import _linear, regression
+from shackled.bench._measure import gas
+from shackled.bench._runner import EXPERIMENTS
 from shackled.chain import open_chain
-from shackled.gas import STAGES
+from shackled.gas._stages import STAGES
 
 ROOT = Path(__file__).resolve().parent.parent
 
@@ -31,7 +33,7 @@ ROOT = Path(__file__).resolve().parent.parent
 def test_gas_is_linear_in_triangles_and_pixels(look: str) -> None:
     scenes = _linear.squares(look) + _linear.cubes(look)
     triangles, pixels, spent = np.array([(s.triangles, s.width * s.height, gas(s)) for s in scenes], float).T
-    found = fits.fit([triangles, pixels], spent)
+    found = regression.fit([triangles, pixels], spent)
     assert found.r2 >= 0.998
     assert min(found.coefficients) > 0
 
@@ -39,12 +41,12 @@ def test_gas_is_linear_in_triangles_and_pixels(look: str) -> None:
 def test_a_fit_finds_a_line_and_a_square() -> None:
     x = np.arange(1.0, 20)
     line, curve = 5 + 3 * x, 5 + x**2
-    assert fits.fit([x], line).coefficients == pytest.approx([5, 3])
-    assert fits.fit([x], line).r2 == pytest.approx(1)
-    assert fits.fit([x], curve).r2 < 0.999
-    assert fits.fit([[1, 2, 3]], [1, 0, 1]).r2 == pytest.approx(0)
-    assert fits.quadratic_share([x], line) == pytest.approx(0, abs=1e-9)
-    assert fits.quadratic_share([x], curve) == pytest.approx(19**2 / (5 + 19**2))
+    assert regression.fit([x], line).coefficients == pytest.approx([5, 3])
+    assert regression.fit([x], line).r2 == pytest.approx(1)
+    assert regression.fit([x], curve).r2 < 0.999
+    assert regression.fit([[1, 2, 3]], [1, 0, 1]).r2 == pytest.approx(0)
+    assert regression.quadratic_share([x], line) == pytest.approx(0, abs=1e-9)
+    assert regression.quadratic_share([x], curve) == pytest.approx(19**2 / (5 + 19**2))
 
 
 def test_the_workload_is_that_of_the_picture() -> None:

@@ -24,9 +24,11 @@ from compiler import needs_compiler
 from pictures import dynamic
 from shackled import Background, Camera, Light, Material, Mesh, Object, RenderError, Scene, load, render
 from shackled.chain import open_chain
-from shackled.datasets import require
+from shackled.datasets._pieces import require
 from shackled.image import decode_bmp
-from shackled.scene import from_euler, is_closed, render_call
+from shackled.scene._arithmetic import from_euler
+from shackled.scene._codec import render_call
+from shackled.scene._staging import is_closed
 from shackled.studio import store_scene
 
 ROOT = Path(__file__).resolve().parent.parent

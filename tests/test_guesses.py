@@ -15,7 +15,7 @@ from PIL import Image as PillowImage
 
 import shackled
 from shackled.errors import NodeUnreachableError
-from shackled.scene import painted
+from shackled.scene._staging import painted
 
 # guesses are no calls that a checker of types would let pass
 s: Any = shackled

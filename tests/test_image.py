@@ -18,7 +18,9 @@ from PIL import Image as PillowImage
 from shackled import Animation, Camera, Image, InputError, Light, Mesh, Object, Processes, RenderError, Scene, render
 from shackled.animation import check_animation
 from shackled.artifacts import artifact
-from shackled.chain import ContractChain, RevmChain, open_chain
+from shackled.chain import open_chain
+from shackled.chain._chain import ContractChain
+from shackled.chain._embedded import RevmChain
 from shackled.image import FORMATS, check_output, decode_bmp
 from shackled.scene import encode
 

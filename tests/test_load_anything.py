@@ -15,8 +15,11 @@ from attrs import evolve
 
 import shackled
 from shackled import Background, Camera, Fog, InputError, Light, Mesh, Object, Rim, Scene, Tone, load, render, replace
-from shackled.datasets import require
-from shackled.scene import SETTINGS, Hemisphere, LookOptions, look_at, read_mesh, rotate
+from shackled.datasets._pieces import require
+from shackled.scene import Hemisphere, read_mesh
+from shackled.scene._arithmetic import rotate
+from shackled.scene._look import look_at
+from shackled.scene._settings import SETTINGS, LookOptions
 from shackled.scene._staging import signed_volume
 
 BALL = trimesh.creation.icosphere(subdivisions=1)
@@ -274,6 +277,7 @@ VALUES: dict[str, Any] = {
 def test_each_setting_changes_the_scene(name: str, kind: str) -> None:
     thing = MESH if kind == "mesh" else Scene([Object(MESH)])
     plain = load(thing)
+    assert name in (*VALUES, "antialias"), f"give {name} a value in VALUES"
     # meshes are antialiased by default, scenes are not
     value: Any = not plain.antialias if name == "antialias" else VALUES[name]
     other = load(thing, **{name: value})

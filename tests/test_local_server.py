@@ -11,7 +11,7 @@ from threading import Thread
 import pytest
 
 from shackled import InputError
-from shackled.local_server import Answer, is_trusted, listen, type_of
+from shackled.base.local_server import Answer, is_trusted, listen, type_of
 
 
 @pytest.fixture(scope="module")

@@ -10,7 +10,7 @@ from benchmarks.scenes import staged_teapot
 from benchmarks.workload import workload_of
 
 from shackled import Scene, load
-from shackled.bench import gas
+from shackled.bench._measure import gas
 
 
 @pytest.fixture(scope="module")

@@ -19,8 +19,10 @@ from nodes import ANVIL, needs_anvil
 from shackled import Camera, Light, Object, Scene
 from shackled.artifacts import artifact
 from shackled.chain import open_chain
-from shackled.scene import Rectangle, encode, fit, pack
-from shackled.scene._codec import LIGHTS, PROJECTIONS, SHADINGS, extensions
+from shackled.scene import encode
+from shackled.scene._codec import LIGHTS, PROJECTIONS, SHADINGS, Rectangle, extensions
+from shackled.scene._in_range import in_range
+from shackled.scene._packed import pack
 
 pytestmark = needs_anvil
 
@@ -62,7 +64,7 @@ def rgb(color: Any) -> int:
 
 def struct(scene: Scene) -> tuple[Any, ...]:
     """A scene in the words of the ABI, as contracts/src/scene/Scene.sol has them."""
-    scene = fit(scene)
+    scene = in_range(scene)
     camera = scene.camera
     return (
         (scene.width, scene.height),

@@ -7,6 +7,7 @@ import json
 import re
 import sys
 import tomllib
+from collections.abc import Iterator
 from functools import cache
 from graphlib import TopologicalSorter
 from importlib import import_module
@@ -46,17 +47,11 @@ EXTRA_OF = {
 
 
 @cache
-def of_the_package(path: Path, for_types: bool = True) -> list[str]:
-    """Return the modules that a file imports, and the names that it takes from them, all absolute.
-
-    for_types: also those that only checkers of types import.
-    """
+def of_the_package(path: Path) -> list[str]:
+    """Return the modules that a file imports, and the names that it takes from them, all absolute."""
     here = path.relative_to(PACKAGE.parent).with_suffix("").parts[:-1] if path.is_relative_to(PACKAGE) else ()
-    tree = ast.parse(path.read_text())
-    if not for_types:
-        tree.body = [node for node in tree.body if not ast.unparse(node).startswith("if TYPE_CHECKING:")]
     found: list[str] = []
-    for node in ast.walk(tree):
+    for node in ast.walk(ast.parse(path.read_text())):
         if isinstance(node, ast.Import):
             found += [alias.name for alias in node.names]
         elif isinstance(node, ast.ImportFrom):
@@ -117,62 +112,72 @@ def test_meshes_are_simplified_where_there_are_wheels() -> None:
         assert marker.evaluate({"sys_platform": system, "platform_machine": machine}) == has_wheel, machine
 
 
-FACES = [path.parent for path in sorted(PACKAGE.rglob("__init__.pyi")) if path.parent != PACKAGE]
+#: Packages that export names of their modules.
+FACES = [".".join(path.parent.relative_to(PACKAGE.parent).parts) for path in sorted(PACKAGE.rglob("__init__.pyi"))]
+MODULES = {
+    ".".join(path.relative_to(PACKAGE.parent).with_suffix("").parts).removesuffix(".__init__"): path
+    for path in PACKAGE.rglob("*.py")
+}
 
 
-@pytest.mark.parametrize("package", FACES, ids=lambda path: path.relative_to(PACKAGE).as_posix())
-def test_others_import_only_what_a_package_exports(package: Path) -> None:
-    """What is developed with the package, such as its tests, may import its private modules."""
-    name = ".".join(package.relative_to(PACKAGE.parent).parts)
-    face = import_module(name)
-    assert all(hasattr(face, each) for each in face.__all__)
-    folders = [PACKAGE, ROOT / "examples"]
-    files = [path for folder in folders for path in sorted(folder.rglob("*.py")) if not path.is_relative_to(package)]
-    private = [
-        f"{path.relative_to(ROOT)}: {imported}"
-        for path in files
-        for imported in of_the_package(path)
-        if imported.startswith(f"{name}._")
-    ]
-    assert not private
+def named_in(code: str) -> Iterator[str]:
+    """Yield the names of the package that code uses, with its modules."""
+    tree, known = ast.parse(code), {"shackled": "shackled"}
+    for node in ast.walk(tree):
+        if isinstance(node, ast.ImportFrom) and (node.module or "").partition(".")[0] == "shackled":
+            known |= {alias.asname or alias.name: f"{node.module}.{alias.name}" for alias in node.names}
+    yield from known.values()
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Attribute):
+            base, *rest = ast.unparse(node).split(".")
+            if base in known:
+                yield ".".join([known[base], *rest])
 
 
-@pytest.mark.parametrize("package", FACES, ids=lambda path: path.relative_to(PACKAGE).as_posix())
-def test_a_package_exports_only_what_others_need(package: Path) -> None:
-    """The documentation names it, or another package uses it, or a package inside this one."""
-    name = ".".join(package.relative_to(PACKAGE.parent).parts)
-    files = [path for each in ("tools/docs", "examples", "benchmarks") for path in (ROOT / each).rglob("*.py")]
-    files += [PACKAGE / "__init__.pyi", *(path for path in PACKAGE.rglob("*.py") if path.parent != package)]
-    used = {each for path in files for each in of_the_package(path)}
-    texts = [path.read_text() for path in [*files, *(ROOT / "docs").rglob("*.md")]]
-    for text in texts:
-        used |= {f"{name}.{each}" for each in re.findall(rf"(?<!\w){package.name}\.(\w+)", text)}
-        for line in re.findall(rf"from {re.escape(name)} import ([^\n]*)", text):
-            used |= {f"{name}.{each}" for each in re.findall(r"\w+", line)}
-    if package.parent.name == "datasets":  # which imports its packages by their names
-        used |= {f"{name}.{each}" for each in ("find", "pieces")}
-    assert {f"{name}.{each}" for each in import_module(name).__all__} <= used
+def test_packages_export_what_the_documentation_names() -> None:
+    """And nothing else; private modules are for the package, and for what is developed with it."""
+    exported = {f"{face}.{name}" for face in FACES for name in import_module(face).__all__}
+    pages = [path.read_text() for path in (ROOT / "README.md", *(ROOT / "docs").glob("*.md"))]
+    used = {name for page in pages for name in re.findall(r"\bshackled\.\w+(?:\.\w+)*", page)}
+    code = ["\n".join(re.findall(r"^```python\n(.*?)^```$", page, re.M | re.S)) for page in pages]
+    code += [path.read_text() for path in (ROOT / "examples").rglob("*.py")]
+    used |= {name for each in code for name in named_in(each)}
+    assert not [name for name in used if "._" in name and "__" not in name]
+    assert exported == {name for name in used if name.rpartition(".")[0] in FACES and name not in MODULES}
+    # the table of packages has all names
+    rows = dict(re.findall(r"^\| `(shackled\.[\w.]+)` \|.*\| ([^|]*) \|$", "\n".join(pages), re.M))
+    listed = {f"{package}.{name}" for package, names in rows.items() for name in re.findall(r"`(\w+)`", names)}
+    assert not [name for name in listed if not hasattr(import_module(name.rpartition(".")[0]), name.rpartition(".")[2])]
+    assert {name for name in exported if name.count(".") > 1} <= listed
+    assert len(exported) <= 90
 
 
 def test_no_imports_form_a_circle() -> None:
-    """Of modules of the package, late imports included. A name of a package stands for the module that has it."""
-    modules = {".".join(path.relative_to(PACKAGE.parent).with_suffix("").parts): path for path in PACKAGE.rglob("*.py")}
-    modules = {name.removesuffix(".__init__"): path for name, path in modules.items()}
-    names = {".".join(folder.relative_to(PACKAGE.parent).parts): folder for folder in [PACKAGE, *FACES]}
-    homes = {
-        f"{face}.{alias.name}": f"{face}.{node.module}"
-        for face, folder in names.items()
-        for node in ast.parse((folder / "__init__.pyi").read_text()).body
-        if isinstance(node, ast.ImportFrom)
-        for alias in node.names
-    }
-    graph = {}
-    for name, path in modules.items():
-        found = {homes.get(each, each) for each in of_the_package(path, for_types=False)}
-        needed = {each if each in modules else each.rpartition(".")[0] for each in found}
-        graph[name] = needed & modules.keys() - {name}
+    """Neither of modules of the package nor of its folders, late imports and those for types included.
+
+    Modules import others by their names, not by those that packages export.
+    """
+    graph: dict[str, set[str]] = {}
+    folders: dict[str, set[str]] = {}
+    for name, path in MODULES.items():
+        found = of_the_package(path)
+        assert not [each for each in found if each not in MODULES and each.rpartition(".")[0] in FACES], name
+        graph[name] = {each if each in MODULES else each.rpartition(".")[0] for each in found} & MODULES.keys() - {name}
+        if name != "shackled":
+            folder, used = name.split(".")[1], {each.split(".")[1] for each in graph[name] - {"shackled"}}
+            folders.setdefault(folder, set()).update(used - {folder})
     assert "shackled.scene._mesh" in graph["shackled.scene._scene"]
-    TopologicalSorter(graph).prepare()  # raises an error that names the circle
+    assert "scene" in folders["chain"]
+    for each in (graph, folders):
+        TopologicalSorter(each).prepare()  # raises an error that names the circle
+
+
+def test_tools_do_not_import_what_imports_them() -> None:
+    """Benchmarks use tools and tests use both; the package uses none of them."""
+    above = {"src": {"tools", "benchmarks", "tests"}, "tools": {"benchmarks", "tests"}, "benchmarks": {"tests"}}
+    for folder, others in above.items():
+        for path in sorted((ROOT / folder).rglob("*.py")):
+            assert others.isdisjoint(each.partition(".")[0] for each in of_the_package(path)), path
 
 
 def test_notices_of_all_whose_code_is_compiled_in() -> None:

@@ -38,8 +38,9 @@ from shackled import (
 )
 from shackled.artifacts import artifact
 from shackled.cli.app import run
-from shackled.image import encode_bmp, uncovered
-from shackled.scene import Hemisphere, encode, full_turn
+from shackled.image import FORMATS, encode_bmp, uncovered
+from shackled.scene import Hemisphere, encode
+from shackled.scene._turning import full_turn
 
 Pixels = NDArray[np.uint8]
 GRADIENT = Background("#2060c0", "#f0c080")
@@ -141,8 +142,10 @@ def test_files() -> None:
     assert image.to_pil().mode == "RGBA"
     assert (opened(image.encode(".webp")) == image.channels).all()
     assert b"data:image/png" in image.encode(".svg")
-    for extension in (".bmp", ".gif", ".jpg"):
-        with pytest.raises(InputError, match=rf"needs a \.png \.svg or \.webp file: {extension} has no alpha channel"):
+    plain = [extension for extension, each in FORMATS.items() if not each.has_alpha]
+    assert {".bmp", ".gif", ".jpg"} <= {*plain}
+    for extension in plain:
+        with pytest.raises(InputError, match=rf"needs a \.png \..* file: {extension} has no alpha channel"):
             image.encode(extension)
     with pytest.raises(InputError, match=r"alpha must have the shape \(48, 48\) of the picture, not \(2, 2\)"):
         Image(image.pixels, alpha=np.zeros((2, 2)))

@@ -6,7 +6,7 @@ import time
 
 import pytest
 
-from shackled.untrusted import MAX_NESTING, read_json, read_toml
+from shackled.base.untrusted import MAX_NESTING, read_json, read_toml
 
 
 @pytest.mark.parametrize(
@@ -40,7 +40,7 @@ def test_no_text_ends_the_process() -> None:
     """Where a package has raised the limit of recursion, as one for elliptic curves does."""
     code = (
         "import sys; sys.setrecursionlimit(10**6)\n"
-        "from shackled.untrusted import read_json\n"
+        "from shackled.base.untrusted import read_json\n"
         "for text in ('[' * 10**6, '{\"a\":' * 10**6):\n"
         "    try:\n        read_json(text)\n    except ValueError:\n        print('refused')"
     )

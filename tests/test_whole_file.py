@@ -11,7 +11,13 @@ from pathlib import Path
 import pytest
 
 from shackled import InputError, OutputError
-from shackled.whole_file import check_output_file, check_output_folder, make_output_folder, write_output, write_whole
+from shackled.base.whole_file import (
+    check_output_file,
+    check_output_folder,
+    make_output_folder,
+    write_output,
+    write_whole,
+)
 
 needs_posix = pytest.mark.skipif(os.name != "posix", reason="links, pipes and modes are those of POSIX")
 needs_full = pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no /dev/full here")

@@ -10,7 +10,7 @@ from collections.abc import Callable
 import pytest
 
 from shackled import InputError, RenderError
-from shackled.workers import WorkerEndedError, each
+from shackled.base.workers import WorkerEndedError, each
 
 
 def double(number: int) -> int:

@@ -13,9 +13,11 @@ from pathlib import Path
 from typing import Any, Self
 
 from shackled.artifacts import artifact
-from shackled.chain import CallResult, Connection, ContractChain, EmbeddedChain, open_chain
+from shackled.chain import Connection, open_chain
+from shackled.chain._chain import CallResult, ContractChain
+from shackled.chain._embedded import EmbeddedChain
 from shackled.errors import NodeUnreachableError, RenderError
-from shackled.ethereum import PROXY, SALT, checksum_address, intrinsic_gas
+from shackled.ethereum._encoding import PROXY, SALT, checksum_address, intrinsic_gas
 from tools.children import child
 
 #: Where `npm ci` installs it in a checkout.

@@ -1,7 +1,7 @@
 """Compile the contracts into src/shackled/artifacts.
 
     python tools/build_contracts.py                  writes the artifacts
-    python tools/build_contracts.py --group NAME     those of one group only
+    python tools/build_contracts.py --group NAME ... those of some groups only
     python tools/build_contracts.py --check          writes nothing; fails, and says which are not up to date
     python tools/build_contracts.py --input NAME     prints the compiler's whole input of a group, libraries too
     python tools/build_contracts.py --functions NAME prints the bytes of each function of a contract, as it was built
@@ -43,8 +43,8 @@ from platformdirs import user_cache_path
 
 from shackled.artifacts import OUTPUTS as OUTPUTS
 from shackled.artifacts import source as text_of
+from shackled.base.whole_file import write_whole
 from shackled.gas._source_map import instruction_sources
-from shackled.whole_file import write_whole
 
 ROOT = Path(__file__).resolve().parent.parent
 CONTRACTS = ROOT / "contracts"
@@ -302,7 +302,7 @@ def functions_of(groups: Sequence[str]) -> dict[str, list[list[Any]]]:
 def source_maps(answer: dict[str, Any], functions: dict[str, list[list[Any]]]) -> dict[str, Any]:
     """Return each contract's source map and the positions of its functions, and the functions of each source.
 
-    As `shackled.gas.source_map` reads it. Places in sources are in bytes of UTF-8.
+    As `shackled.gas._source_map` reads it. Places in sources are in bytes of UTF-8.
     """
     maps, used = {}, set()
     for contracts in answer["contracts"].values():
@@ -453,7 +453,7 @@ def main() -> int:
     """Build or check the artifacts."""
     parser = argparse.ArgumentParser(description="Compile the contracts into src/shackled/artifacts.")
     parser.add_argument("--check", action="store_true", help="write nothing; fail if the artifacts are not up to date")
-    parser.add_argument("--group", choices=tuple(GROUPS), help="only the contracts of this group")
+    parser.add_argument("--group", nargs="+", choices=tuple(GROUPS), help="only the contracts of these groups")
     parser.add_argument("--input", choices=tuple(GROUPS), help="print the compiler's input of a group, and stop")
     every = [name for group in GROUPS.values() for name in group["contracts"]]
     parser.add_argument("--functions", choices=every, metavar="NAME", help="print the bytes of each function, and stop")
@@ -466,7 +466,7 @@ def main() -> int:
     if options.input:
         print(_text(standard_input(options.input)), end="")
         return 0
-    groups = (options.group,) if options.group else tuple(GROUPS)
+    groups = options.group or tuple(GROUPS)
     files = build(groups=groups)
     others = outdated(groups)
     if options.check:

@@ -22,8 +22,9 @@ from pathlib import Path
 from typing import Any
 
 from shackled.artifacts import artifact, source, standard_input
-from shackled.deploy import CONTRACTS, Deployment, deployments
-from shackled.ethereum import checksum_address
+from shackled.deploy import deployments
+from shackled.deploy._contract import CONTRACTS, Deployment
+from shackled.ethereum._encoding import checksum_address
 from tools.addresses import ROOT, for_an_index, with_addresses
 
 SOURCES = ROOT / "contracts" / "src"

@@ -31,10 +31,9 @@ from shackled import Scene, load
 from shackled.artifacts import artifact
 from shackled.datasets import Piece, pieces
 from shackled.datasets._drawing import draw, table
-from shackled.ethereum import to_hex
-from shackled.scene import encode_scene_file, vertex_normals
-from shackled.web import asset
-from shackled.web._page import page_template
+from shackled.ethereum._encoding import to_hex
+from shackled.scene._mesh import vertex_normals
+from shackled.web._page import asset, page_template
 from tools.build_web import WEB, code_of
 
 ROOT = Path(__file__).resolve().parent.parent
@@ -151,7 +150,7 @@ def dump(value: Any) -> bytes:
 
 def pack(staged: Scene) -> bytes:
     """Return the scene file of a piece, with its meshes as numbers of which equal bytes lie together."""
-    scene = json.loads(encode_scene_file(staged))
+    scene = json.loads(staged.encode())
     meshes: list[dict[str, Any]] = []
     numbers = []
     for place, each in enumerate(scene["objects"]):

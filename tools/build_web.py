@@ -19,10 +19,12 @@ from pathlib import Path
 from typing import Any
 
 from shackled.artifacts import RENDERER, artifact
-from shackled.chain import EmbeddedChain, open_chain
-from shackled.ethereum import SOLIDITY_ERRORS, to_hex
-from shackled.gas import STAGES
+from shackled.chain import open_chain
+from shackled.chain._embedded import EmbeddedChain
+from shackled.ethereum._abi import SOLIDITY_ERRORS
+from shackled.ethereum._encoding import to_hex
 from shackled.gas._source_map import source_map
+from shackled.gas._stages import STAGES
 from shackled.gas._trace import places
 
 ROOT = Path(__file__).resolve().parent.parent

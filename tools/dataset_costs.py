@@ -12,8 +12,9 @@ import sys
 from pathlib import Path
 
 from shackled.cli.progress import LateBar
-from shackled.datasets import draw_all, pieces
-from shackled.datasets.common import models
+from shackled.datasets import pieces
+from shackled.datasets._drawing import draw_all
+from shackled.datasets.common._models import models
 
 FILE = Path(__file__).resolve().parent.parent / "src" / "shackled" / "datasets" / "gas.json"
 

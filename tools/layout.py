@@ -1,8 +1,5 @@
-"""Write the files that are made of contracts/layout.toml, the table of registers and packed words.
-
-python tools/layout.py            writes the files of contracts/src/words but Memory.sol, chain/_layout.py,
-                                  scene/_records.py, and scene/records.ts of web/
-python tools/layout.py --check    writes nothing; fails if a file is not as it would be written
+"""Make of contracts/layout.toml, the table of registers and packed words, the files of contracts/src/words but
+Memory.sol, chain/_layout.py, scene/_records.py, and scene/records.ts of web/.
 
 The compiler takes no expressions in assembly, so every address, shift and mask has to be a number of its own. Here they
 are computed, so that one line of the table adds a register, and the contracts and the package cannot differ.
@@ -12,7 +9,6 @@ from __future__ import annotations
 
 import json
 import re
-import sys
 import textwrap
 import tomllib
 from collections.abc import Iterable, Iterator
@@ -372,20 +368,3 @@ def files() -> dict[Path, str]:
         made[FOLDER / f"{name}.sol"] = solidity(iter(sections), before)
         before = f"{name}.sol"
     return made
-
-
-def main() -> int:
-    """Write or check the files."""
-    made = files()
-    if "--check" in sys.argv[1:]:
-        stale = [path for path, text in made.items() if not path.exists() or path.read_text("utf-8") != text]
-        for path in stale:
-            print(f"{path.relative_to(ROOT)} is not made of layout.toml: run tools/layout.py", file=sys.stderr)
-        return 1 if stale else 0
-    for path, text in made.items():
-        path.write_text(text, "utf-8", newline="\n")
-    return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())

@@ -10,9 +10,9 @@ from eth_abi.abi import decode, encode
 from eth_abi.grammar import parse
 
 from shackled.artifacts import artifact
-from shackled.chain import EmbeddedChain, open_chain
-from shackled.chain._embedded import pyrevm_error
-from shackled.ethereum import intrinsic_gas, to_hex
+from shackled.chain import open_chain
+from shackled.chain._embedded import EmbeddedChain, pyrevm_error
+from shackled.ethereum._encoding import intrinsic_gas, to_hex
 
 GAS = 2_000_000_000
 SENDER = b"\x5a" * 20

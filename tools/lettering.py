@@ -1,7 +1,5 @@
 """Make contracts/src/building/Glyphs.sol: the letters of `Lettering.sol`.
 
-    python tools/lettering.py
-
 The letters are drawn for Shackled. Each is a list of strokes, and a stroke the points of its middle line, x from 0 to
 11 and y from -3 to 12: capitals are 10 high, small letters 7. A stroke of one point is a dot; one that ends where it
 began is closed.
@@ -9,7 +7,6 @@ began is closed.
 
 from __future__ import annotations
 
-import argparse
 from pathlib import Path
 
 FILE = Path(__file__).resolve().parent.parent / "contracts" / "src" / "building" / "Glyphs.sol"
@@ -147,11 +144,6 @@ def _literal(data: bytes) -> str:
     return "\n".join(f'    hex"{data[at : at + 60].hex()}"' for at in range(0, len(data), 60))
 
 
-def main() -> None:
-    """Write the file."""
-    argparse.ArgumentParser(description="Write the letters of Lettering.sol.").parse_args()
-    FILE.write_text(source(), "utf-8", newline="\n")
-
-
-if __name__ == "__main__":
-    main()
+def files() -> dict[Path, str]:
+    """Return the text of the file, by its path."""
+    return {FILE: source()}

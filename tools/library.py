@@ -1,6 +1,4 @@
-"""Write contracts/src/library/ItemTable.sol, the table of the library on chain.
-
-    python tools/library.py
+"""Make contracts/src/library/ItemTable.sol, the table of the library on chain.
 
 The table has the addresses at which the Studio keeps the items, which are made of their bytes and the address of the
 Studio: run it after tools/build_contracts.py whenever the Studio has changed, then compile the group "library".
@@ -8,7 +6,6 @@ Studio: run it after tools/build_contracts.py whenever the Studio has changed, t
 
 from __future__ import annotations
 
-import argparse
 from pathlib import Path
 
 from shackled.library import Item, items
@@ -73,12 +70,6 @@ def _literal(digits: str, name: str) -> str:
     return f"            // {name}\n" + "".join(f'            hex"{line}"\n' for line in lines)
 
 
-def main() -> None:
-    """Write the table."""
-    argparse.ArgumentParser(description="Write the table of the library on chain.").parse_args()
-    TABLE.write_text(source(), "utf-8", newline="\n")
-    print(f"{TABLE.relative_to(ROOT)}: {len(items())} items")
-
-
-if __name__ == "__main__":
-    main()
+def files() -> dict[Path, str]:
+    """Return the text of the file, by its path."""
+    return {TABLE: source()}

@@ -34,7 +34,7 @@ from typing import Any
 from unittest.mock import patch
 
 from shackled.artifacts import RENDERER, artifact
-from shackled.chain import EmbeddedChain, RevmChain
+from shackled.chain._embedded import EmbeddedChain, RevmChain
 from tools import build_contracts as tool
 
 ROOT = tool.ROOT
@@ -51,29 +51,29 @@ LEFT_OVER = {"2018", "2072", "5667", "5740", "6133"}
 #: The exact rules: which samples a triangle covers, wires, clipping, tiles, symmetry, depth, and refusals.
 RULES = [
     "tests/judge/test_judge.py",
-    "tests/test_fill_rule.py",
-    "tests/test_bad_input_on_chain.py",
-    "tests/test_watertight.py",
-    "tests/test_wire_rule.py",
-    "tests/test_clipping.py",
-    "tests/test_tiles.py",
-    "tests/test_symmetry.py",
-    "tests/test_depth.py",
+    "tests/contracts/test_fill_rule.py",
+    "tests/contracts/test_bad_input_on_chain.py",
+    "tests/contracts/test_watertight.py",
+    "tests/contracts/test_wire_rule.py",
+    "tests/contracts/test_clipping.py",
+    "tests/contracts/test_tiles.py",
+    "tests/contracts/test_symmetry.py",
+    "tests/contracts/test_depth.py",
     "tests/test_rules.py",
-    "tests/test_coincident_faces.py",
-    "tests/test_shadows.py",
-    "tests/test_tile_culling.py",
+    "tests/contracts/test_coincident_faces.py",
+    "tests/contracts/test_shadows.py",
+    "tests/contracts/test_tile_culling.py",
     "tests/test_transparent.py",
-    "tests/test_random_scenes.py",
+    "tests/contracts/test_random_scenes.py",
 ]
 #: Those that hold when the definition draws in place of the contracts.
 RULES_OF_PICTURE = [
     "tests/judge/test_judge.py::test_coverage_of_a_square",
     "tests/judge/test_judge.py::test_light_of_a_sphere",
-    "tests/test_fill_rule.py::test_a_pixel_on_each_kind_of_edge",
-    "tests/test_fill_rule.py::test_slivers",
-    "tests/test_clipping.py::test_the_near_plane_cuts_where_it_is",
-    "tests/test_depth.py::test_of_two_coplanar_triangles_the_first_wins",
+    "tests/contracts/test_fill_rule.py::test_a_pixel_on_each_kind_of_edge",
+    "tests/contracts/test_fill_rule.py::test_slivers",
+    "tests/contracts/test_clipping.py::test_the_near_plane_cuts_where_it_is",
+    "tests/contracts/test_depth.py::test_of_two_coplanar_triangles_the_first_wins",
 ]
 #: Seeds of random scenes, of each kind, that the judge sees; of those that OpenGL sees, and the most triangles of one.
 SEEDS, OPENGL_SEEDS, TRIANGLES = range(1, 9), range(1, 17), 300
@@ -291,10 +291,10 @@ def by_opengl() -> str | None:
     """Compare random scenes with OpenGL."""
     from conformance.compare import compare
     from random_scenes import random_scene
-    from shackled.scene import fit
+    from shackled.scene._in_range import in_range
 
     scenes = ((seed, random_scene("plain", seed)) for seed in OPENGL_SEEDS)
-    small = ((seed, scene) for seed, scene in scenes if fit(scene).triangles <= TRIANGLES)
+    small = ((seed, scene) for seed, scene in scenes if in_range(scene).triangles <= TRIANGLES)
     return next((f"plain {seed}" for seed, scene in small if compare("", scene).faults), None)
 
 
@@ -306,7 +306,7 @@ JUDGES: dict[str, Callable[[], str | None]] = {
 OF_PICTURE: dict[str, Callable[[], str | None]] = {
     "OpenGL": by_opengl,
     "rules": partial(by_tests, RULES_OF_PICTURE),
-    "contracts": partial(by_tests, ["tests/test_definition.py"]),
+    "contracts": partial(by_tests, ["tests/contracts/test_definition.py"]),
 }
 
 
@@ -341,7 +341,7 @@ def run(file: str, judge: str) -> None:
 def killer(file: Path, judge: str) -> str | None:
     """Return what a judge finds of a mutant, in a process of its own that imports what is beside the file."""
     command = [sys.executable, "-m", "tools.mutants", "--run", str(file), judge]
-    folders = (file.parent, "", "tests", "tests/support", "src", "contracts")
+    folders = (file.parent, "", "tests", "tests/contracts", "tests/support", "src", "contracts")
     paths = os.pathsep.join(str(ROOT / folder) for folder in folders)
     # one thread each: the arrays are small
     environment = os.environ | {"PYTHONPATH": paths, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}

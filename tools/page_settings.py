@@ -1,22 +1,20 @@
-"""Write web/src/document/settings.ts: what the page takes from the package, which are settings, looks, limits of gas,
+"""Make web/src/document/settings.ts: what the page takes from the package, which are settings, looks, limits of gas,
 chains, and bounds of what transactions cost.
-
-python tools/page_settings.py    with --check it writes nothing, and fails if the file is not as it would be written
 """
 
 from __future__ import annotations
 
 import json
-import sys
 from math import isfinite
 from pathlib import Path
 from typing import Any
 
-from shackled.checks import Color
+from shackled.base.checks import Color
 from shackled.deploy import _quote
 from shackled.gas import known_chains, limits
-from shackled.scene import PRESETS, SETTINGS
+from shackled.scene import PRESETS
 from shackled.scene._presets import Preset
+from shackled.scene._settings import SETTINGS
 from shackled.tokens._contract import USUAL_GAS
 from shackled.tokens._reveal import FIRST_GAS, REVEAL_GAS
 
@@ -106,10 +104,6 @@ def _hex(color: Color) -> str:
     return "#" + bytes(color).hex()
 
 
-if __name__ == "__main__":
-    if sys.argv[1:] not in ([], ["--check"]):
-        sys.exit(__doc__)
-    if not sys.argv[1:]:
-        FILE.write_text(text(), "utf-8")
-    elif FILE.read_text("utf-8") != text():
-        sys.exit(f"{FILE.name} is not as tools/page_settings.py writes it: run it without --check")
+def files() -> dict[Path, str]:
+    """Return the text of the file, by its path."""
+    return {FILE: text()}

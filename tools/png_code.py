@@ -1,7 +1,4 @@
-"""Model the PNG encoder of contracts/src/encode/Png.sol, and write its tables: contracts/src/encode/PngCode.sol.
-
-python tools/png_code.py            writes the file
-python tools/png_code.py --check    writes nothing; fails if the file is not as it would be written
+"""Model the PNG encoder of contracts/src/encode/Png.sol, and make its tables: contracts/src/encode/PngCode.sol.
 
 Each pixel becomes a square of `scale` pixels, so that it stays crisp where pictures are enlarged smoothly. The first
 row of each square holds the pixels themselves (filter None), the others equal the row above (filter Up): zeros. A
@@ -12,7 +9,6 @@ bits, so that no table is needed for them; one code, fitted to pictures of this 
 from __future__ import annotations
 
 import struct
-import sys
 import zlib
 from functools import cache
 from itertools import pairwise
@@ -327,14 +323,6 @@ def _literal(digits: str) -> str:
     return "\n".join(f'            hex"{line}"' for line in lines)
 
 
-def main() -> int:
-    """Write or check the file."""
-    text = write()
-    if "--check" in sys.argv[1:]:
-        return int(TARGET.read_text("utf-8") != text)
-    TARGET.write_text(text, "utf-8", newline="\n")
-    return 0
-
-
-if __name__ == "__main__":
-    sys.exit(main())
+def files() -> dict[Path, str]:
+    """Return the text of the file, by its path."""
+    return {TARGET: write()}

@@ -1,14 +1,10 @@
-"""Write contracts/src/building/Presets.sol: the table of src/shackled/scene/presets.toml, for contracts.
-
-python tools/presets.py
-"""
+"""Make contracts/src/building/Presets.sol: the table of src/shackled/scene/presets.toml, for contracts."""
 
 from __future__ import annotations
 
-import argparse
 from pathlib import Path
 
-from shackled.checks import Color
+from shackled.base.checks import Color
 from shackled.scene import PRESETS
 from shackled.scene._codec import ONE
 from shackled.scene._presets import Preset
@@ -67,11 +63,6 @@ def source() -> str:
     return HEAD + "".join(map(function, PRESETS)) + TAIL
 
 
-def main() -> None:
-    """Write the file."""
-    argparse.ArgumentParser(description="Write the presets of the scene builder.").parse_args()
-    FILE.write_text(source(), "utf-8", newline="\n")
-
-
-if __name__ == "__main__":
-    main()
+def files() -> dict[Path, str]:
+    """Return the text of the file, by its path."""
+    return {FILE: source()}

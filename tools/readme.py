@@ -11,7 +11,7 @@ import json
 import sys
 from typing import Any
 
-from shackled.scene import SETTINGS
+from shackled.scene._settings import SETTINGS
 from tools.pages import DOCS, IMAGES, ROOT, update
 
 PAGES = (ROOT / "README.md", DOCS / "index.md", DOCS / "light.md", DOCS / "look.md")

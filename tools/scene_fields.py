@@ -1,15 +1,12 @@
-"""Write the files that are made of contracts/scene_fields.toml, the table of what scenes are made of.
-
-python -m tools.scene_fields            writes scene/_fields.py and scene/_constants.py of the package; types.ts,
-                                        fields.ts and constants.ts of web/src/scene; tables of docs/scene-files.md
-python -m tools.scene_fields --check    writes nothing; fails if a file is not as it would be written
+"""Make the files of contracts/scene_fields.toml, the table of what scenes are made of: scene/_fields.py and
+scene/_constants.py of the package, types.ts, fields.ts and constants.ts of web/src/scene, and tables of
+docs/scene-files.md.
 """
 
 from __future__ import annotations
 
 import json
 import re
-import sys
 import textwrap
 import tomllib
 from collections.abc import Callable, Iterator
@@ -304,17 +301,3 @@ def files() -> dict[Path, str]:
         WEB / "constants.ts": constants(table, f"// {title}\n", "export const {} = {};", "[]", comment),
         PAGE: filled(PAGE, lambda name: keys(table, name)),
     }
-
-
-def main() -> None:
-    """Write or check the files."""
-    stale = {path: text for path, text in files().items() if not path.exists() or path.read_text("utf-8") != text}
-    if stale and "--check" in sys.argv[1:]:
-        names = ", ".join(str(path.relative_to(ROOT)) for path in stale)
-        sys.exit(f"not as contracts/scene_fields.toml makes it: {names}: run python -m tools.scene_fields")
-    for path, text in stale.items():
-        path.write_text(text, "utf-8", newline="\n")
-
-
-if __name__ == "__main__":
-    main()

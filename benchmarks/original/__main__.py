@@ -32,11 +32,10 @@ from numpy.typing import NDArray
 
 from shackled import InputError
 from shackled.artifacts import artifact
-from shackled.bench import original
+from shackled.bench._original import original
 from shackled.errors import ChainError
-from shackled.ethereum import intrinsic_gas, keccak256, parse_address, to_hex
-from shackled.evm import Instance, Status
-from shackled.evm._instance import MOST_GAS
+from shackled.ethereum._encoding import intrinsic_gas, keccak256, parse_address, to_hex
+from shackled.evm._instance import MOST_GAS, Instance, Status
 
 from .. import run_main
 from .documents import Document, call_data

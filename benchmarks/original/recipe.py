@@ -24,11 +24,11 @@ from numpy.typing import NDArray
 
 from shackled import InputError
 from shackled.bench.scenes import cube, equal_triangles
-from shackled.datasets import cache_folder, keep
+from shackled.datasets._drawing import cache_folder, keep
 from shackled.datasets.common._fetch import checksum, download
 from shackled.datasets.common._models import Model
 from shackled.errors import ShackledError
-from shackled.scene import from_euler, rotate
+from shackled.scene._arithmetic import from_euler, rotate
 
 from .. import run_main
 from .documents import Document, document, genesis_document, scene_document

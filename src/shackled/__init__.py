@@ -6,7 +6,7 @@ from typing import Any
 
 import lazy_loader
 
-from .words import INSTEAD
+from .base.synonyms import HINTS
 
 _attribute, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
 
@@ -16,6 +16,6 @@ def __getattr__(name: str) -> Any:
     if name not in __all__:
         if not name.startswith("_") and find_spec(f"{__name__}.{name}"):
             return import_module(f".{name}", __name__)
-        if name in INSTEAD:
-            raise AttributeError(f"module {__name__!r} has no attribute {name!r}; {INSTEAD[name]}", name=name)
+        if name in HINTS:
+            raise AttributeError(f"module {__name__!r} has no attribute {name!r}; {HINTS[name]}", name=name)
     return _attribute(name)

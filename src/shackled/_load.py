@@ -11,45 +11,30 @@ from typing import Any, Unpack
 import numpy as np
 from attrs import evolve, fields
 
-from .datasets import Piece, find, require
+from .base.synonyms import Given, with_synonyms
+from .datasets._pieces import Piece, find, require
 from .errors import InputError
-from .scene import (
-    GLTF,
-    MESH_STAGING,
-    PICTURE,
-    READERS,
-    SCENES,
-    Axis,
-    Link,
-    LookOptions,
-    Mesh,
-    MeshPart,
-    Object,
-    Scene,
-    about,
-    animation_length,
-    as_shown,
-    axis_of_file,
-    checked_look,
-    format_by_name,
-    format_of,
-    frame_count,
-    is_pipe,
-    is_trimesh,
-    link_of,
-    look_at,
-    mesh_of,
-    objects_of,
-    part_of,
-    read_model,
-    read_pipe,
-    read_scene,
-    read_view,
-    settings_of,
-    stored,
-    upright,
-)
-from .words import with_words
+from .scene._canvas import as_shown
+from .scene._files.content import format_of, is_pipe, read_pipe, stored
+from .scene._files.gltf.animation import animation_length
+from .scene._files.gltf.view import read_view
+from .scene._files.link import Link, link_of
+from .scene._files.mesh_file import GLTF, READERS, read_model
+from .scene._files.model import MeshPart
+from .scene._files.picture import PICTURE
+from .scene._files.scene_file import SCENES, read_scene
+from .scene._files.signatures import format_by_name
+from .scene._files.table import about
+from .scene._from_others import mesh_of
+from .scene._from_trimesh import objects_of, part_of
+from .scene._look import look_at
+from .scene._mesh import Mesh, is_trimesh
+from .scene._object import Object
+from .scene._scene import Scene
+from .scene._settings import LookOptions, checked_look, settings_of
+from .scene._staging import MESH_STAGING
+from .scene._turning import frame_count
+from .scene._upright import Axis, axis_of_file, upright
 
 #: Input of `load`. `Any`: arrays of vertices and faces, or a mesh or scene of trimesh, an optional package.
 Thing = str | os.PathLike[str] | Piece | Mesh | Object | Scene | Sequence[Any] | Any
@@ -61,7 +46,14 @@ GAP = 0.2
 replace = evolve
 
 
-@with_words
+def of_arrays(given: Given) -> Given:
+    """Return keywords with vertices and faces as one thing."""
+    if {"vertices", "faces"} <= given.keys():
+        given["thing"] = (given.pop("vertices"), given.pop("faces"))
+    return given
+
+
+@with_synonyms("vertices", "faces", read=of_arrays)
 def load(thing: Thing, size: int | tuple[int, int] | None = None, **look: Unpack[LookOptions]) -> Scene:
     """Return the scene of a file, a piece of a dataset, a mesh, arrays, or an object of trimesh.
 
@@ -207,14 +199,18 @@ def read_posed(path: Path, look: Mapping[str, Any], pose: dict[str, Any]) -> lis
     return evolve(scene, camera=camera, lights=lights or scene.lights)
 
 
+def piece_scene(name: str) -> Scene:
+    return require(name).make()
+
+
 def _made(thing: Any, look: Mapping[str, Any]) -> Mesh | list[Object] | Scene:
     """Return the mesh, the parts of a model or the scene of an input."""
     if isinstance(thing, Mesh | Scene):
         return thing
     if isinstance(thing, Path):
-        return _model(thing, look) if format_of(thing) in READERS else read_scene(thing)
+        return _model(thing, look) if format_of(thing) in READERS else read_scene(thing, piece_scene)
     if isinstance(thing, Link):
-        return thing.scene()
+        return thing.scene(piece_scene)
     if isinstance(thing, Piece):
         return evolve(thing.make(), width=MESH_STAGING.side, height=MESH_STAGING.side, antialias=True)
     if isinstance(thing, Object):

@@ -3,28 +3,39 @@
 from __future__ import annotations
 
 import os
-import time
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Unpack
+from typing import Unpack
 
 from attrs import evolve
 
-from ._load import Thing, load_frames, load_picture
-from ._on import Bounds, Embedded, On, Place, is_one_call, place_of
-from .animation import DURATION, DURATIONS, Animation
-from .chain import Drawing
-from .checks import flag
+from ._load import Thing, load_frames, load_picture, of_arrays
+from .animation import DURATION, DURATIONS, Animation, with_duration
+from .base.synonyms import Given, with_synonyms
 from .errors import InputError, OutOfGasError, warn
-from .image import Image, decode_bmp, uncovered
-from .scene import Background, LookOptions, Scene, full_turn
-from .words import with_words
+from .image import Image, render_whole, uncovered
+from .parallel._job import render_frames
+from .parallel._scheduler import Listener
+from .parallel.places import Embedded, How, On
+from .scene._effects import Background
+from .scene._scene import Scene
+from .scene._settings import LookOptions
+from .scene._turning import full_turn
 
-if TYPE_CHECKING:
-    from .parallel import Listener
+
+def _of_picture(given: Given) -> Given:
+    """Return keywords with vertices and faces as one thing, and a transparent background as a flag."""
+    if str(given.get("background")).strip().lower() == "transparent":
+        given |= {"background": None, "transparent": True}
+    return of_arrays(given)
 
 
-@with_words
+def _of_film(given: Given) -> Given:
+    """Return the same, with the duration of a frame."""
+    return with_duration(_of_picture(given))
+
+
+@with_synonyms("vertices", "faces", read=_of_picture)
 def render(
     thing: Thing,
     size: int | tuple[int, int] | None = None,
@@ -57,9 +68,9 @@ def render(
 
     Raises InputError for an invalid scene, ChainError if a call fails.
     """
-    scene, place, bounds = load_picture(thing, size, **look), place_of(on), Bounds(gas_limit, tile)
+    scene, how = load_picture(thing, size, **look), How(on, gas_limit, tile, listener, keep, transparent)
     if fit is not None:
-        from .gas import fit_scene
+        from .gas._fitting import fit_scene
 
         for name, given in (("tile", tile), ("gas_limit", gas_limit)):
             if given is not None:
@@ -68,13 +79,10 @@ def render(
         if found.scene != scene:
             warn(found.sentence)
         scene = found.scene
-    if not flag(transparent, "`transparent`"):
-        return draw([scene], place, bounds, listener, keep)[0]
-    black, white = draw(_twice(scene), place, bounds, listener, keep)
-    return uncovered(black, white, scene)
+    return picture(scene, how)
 
 
-@with_words
+@with_synonyms("fps", "vertices", "faces", read=_of_film)
 def turntable(
     thing: Thing,
     frames: int = 36,
@@ -102,21 +110,11 @@ def turntable(
         frames, no tiles, and `on` as in `shackled.studio.make_apng`.
     transparent: as in `render`.
     """
-    if one_call:
-        from .studio import make_apng
-
-        if transparent:
-            raise InputError("`one_call` and `transparent` exclude each other: the contract's file has a background")
-        if tile is not None:
-            raise InputError("a turntable of one call has no tiles: leave out `tile` or `one_call`")
-        return Animation.of(
-            make_apng(load_picture(thing, size, **look), frames, duration, on=on, gas_limit=gas_limit), duration
-        )
-    turned = full_turn(load_picture(thing, size, **look), frames)
-    return film(turned, duration, place_of(on), Bounds(gas_limit, tile), listener, keep, transparent)
+    scene, how = load_picture(thing, size, **look), How(on, gas_limit, tile, listener, keep, transparent)
+    return turn(scene, frames, duration, how, one_call)
 
 
-@with_words
+@with_synonyms("fps", "vertices", "faces", read=_of_film)
 def animate(
     thing: str | os.PathLike[str],
     frames: int = 36,
@@ -141,7 +139,7 @@ def animate(
     """
     scenes, length = load_frames(thing, frames, size, **look)
     shown = pace(length, frames) if duration is None else duration
-    return film(scenes, shown, place_of(on), Bounds(gas_limit, tile), listener, keep, transparent)
+    return film(scenes, shown, How(on, gas_limit, tile, listener, keep, transparent))
 
 
 def pace(length: float, frames: int) -> int:
@@ -149,63 +147,49 @@ def pace(length: float, frames: int) -> int:
     return round(min(max(1000 * length / frames, DURATIONS[0]), DURATIONS[1]))
 
 
-def film(
-    scenes: Sequence[Scene],
-    duration: int,
-    place: Place,
-    bounds: Bounds,
-    listener: Listener | None = None,
-    keep: Path | None = None,
-    transparent: bool = False,
-) -> Animation:
-    """Render scenes of one size as the frames of an animation."""
-    from .parallel import render_frames
+def turn(scene: Scene, frames: int, duration: int, how: How, one_call: bool = False) -> Animation:
+    """Render a full turn of a scene. The arguments are those of `turntable`."""
+    if not one_call:
+        return film(full_turn(scene, frames), duration, how)
+    from .studio._files import make_apng
 
-    drawn = [each for scene in scenes for each in _twice(scene)] if flag(transparent, "`transparent`") else scenes
-    images = render_frames(drawn, place, bounds, listener, keep)
-    if transparent:
+    if how.transparent:
+        raise InputError("`one_call` and `transparent` exclude each other: the contract's file has a background")
+    if how.tile is not None:
+        raise InputError("a turntable of one call has no tiles: leave out `tile` or `one_call`")
+    on = how.on.chain if isinstance(how.on, Embedded) else how.on
+    return Animation.of(make_apng(scene, frames, duration, on=on, gas_limit=how.gas_limit), duration)
+
+
+def film(scenes: Sequence[Scene], duration: int, how: How) -> Animation:
+    """Render scenes of one size as the frames of an animation."""
+    images = render_frames([each for scene in scenes for each in _drawn(scene, how)], how)
+    if how.transparent:
         images = [uncovered(*both) for both in zip(images[::2], images[1::2], scenes, strict=True)]
     return Animation(images, duration)
 
 
-def _twice(scene: Scene) -> list[Scene]:
-    """Return a scene over black and over white, as it is drawn for `uncovered`."""
-    backgrounds = ("white", "black") if scene.invert else ("black", "white")
-    return [evolve(scene, background=Background(each)) for each in backgrounds]
-
-
-def draw(
-    scenes: Sequence[Scene], place: Place, bounds: Bounds, listener: Listener | None = None, keep: Path | None = None
-) -> list[Image]:
-    """Render scenes of one size, by one call each or by several."""
-    from .parallel import render_frames
-
-    is_whole = isinstance(place, Embedded) and all(is_one_call(place, scene, bounds) for scene in scenes)
+def picture(scene: Scene, how: How) -> Image:
+    """Render a scene, by one call or by several."""
+    scenes, is_whole = _drawn(scene, how), how.is_one_call(scene)
     try:
-        if isinstance(place, Embedded) and is_whole:
-            chain, evm = place.opened(), place.evm
-            return [render_whole(scene, chain.draw, chain.name, evm) for scene in scenes]
-        return render_frames(scenes, place, bounds, listener, keep)
+        if isinstance(how.on, Embedded) and is_whole:
+            chain, evm = how.on.opened(), how.on.evm
+            images = [render_whole(each, chain.draw, chain.name, evm) for each in scenes]
+        else:
+            images = render_frames(scenes, how)
     except OutOfGasError as error:
-        from .gas import savings
+        from .gas._savings import savings
 
         if error.limit is None:
             raise
         raise OutOfGasError(f"{error}{savings(scenes[0], error.limit, not is_whole)}") from None
+    return uncovered(images[0], images[1], scene) if how.transparent else images[0]
 
 
-def render_whole(scene: Scene, draw: Callable[[Scene], Drawing], made_by: str, evm: str | None = None) -> Image:
-    """Render a scene by one call. draw: makes it. made_by, evm: see `Image`."""
-    started = time.perf_counter()
-    drawing = draw(scene)
-    seconds = time.perf_counter() - started
-    return Image(
-        pixels=decode_bmp(drawing.bmp, scene.width, scene.height),
-        bmp=drawing.bmp,
-        gas=drawing.gas,
-        intrinsic_gas=drawing.intrinsic_gas,
-        made_by=made_by,
-        seconds=seconds,
-        scene=scene,
-        evm=evm,
-    )
+def _drawn(scene: Scene, how: How) -> list[Scene]:
+    """Return what is drawn of a scene: itself or, for `uncovered`, the scene over black and over white."""
+    if not how.transparent:
+        return [scene]
+    backgrounds = ("white", "black") if scene.invert else ("black", "white")
+    return [evolve(scene, background=Background(each)) for each in backgrounds]

@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 from attrs import evolve
 
-from .chain import open_chain
-from .scene import Scene, is_visible
+from .chain._opening import open_chain
+from .scene._files.model import is_visible
+from .scene._scene import Scene
 
 
 def why_nothing(scene: Scene, evm: str | None = None) -> str:

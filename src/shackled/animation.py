@@ -10,7 +10,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from fractions import Fraction
 from importlib.util import find_spec
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, BinaryIO
+from typing import Any, BinaryIO
 
 import numpy as np
 from attrs import field, frozen
@@ -18,7 +18,11 @@ from numpy.typing import ArrayLike, DTypeLike, NDArray
 from PIL import Image as PillowImage
 from PIL import ImageSequence
 
-from .checks import number
+from .base.checks import number
+from .base.synonyms import Given, Hinted, with_synonyms
+from .base.values import plural
+from .base.whole_file import check_output_file, check_output_folder, make_output_folder, write_output
+from .contract_file import ContractFile
 from .errors import InputError, not_installed
 from .image import (
     WEBP,
@@ -37,13 +41,7 @@ from .image import (
     total,
     write_open,
 )
-from .scene import PICTURE
-from .values import plural
-from .whole_file import check_output_file, check_output_folder, make_output_folder, write_output
-from .words import Words, with_duration, words_of
-
-if TYPE_CHECKING:
-    from .studio import ContractFile
+from .scene._files.picture import PICTURE
 
 #: Milliseconds for which a frame is shown.
 DURATION = 80
@@ -57,13 +55,27 @@ def check_duration(milliseconds: float) -> int:
     return round(number(milliseconds, "the duration of a frame in milliseconds", *DURATIONS))
 
 
+def with_duration(given: Given) -> Given:
+    """Return keywords with the duration of a frame in milliseconds in place of `fps`, the frames in a second."""
+    if "fps" not in given:
+        return given
+    if "duration" in given:
+        raise InputError("`fps` and `duration` exclude each other: give one of them")
+    fps = given.pop("fps")
+    try:
+        given["duration"] = round(1000 / fps)
+    except (TypeError, ValueError, ZeroDivisionError, OverflowError):
+        raise InputError(f"`fps` must be the number of frames in a second, not {fps!r:.60}") from None
+    return given
+
+
 def _frames(frames: Iterable[Image | ArrayLike]) -> tuple[Image, ...]:
     return tuple(frame if isinstance(frame, Image) else Image(frame) for frame in frames)
 
 
-@words_of("fps", read=with_duration)
+@with_synonyms("fps", read=with_duration)
 @frozen(repr=False)
-class Animation(Words):
+class Animation(Hinted):
     """Frames as a contract made them, all of one size, repeated endlessly. They are its members: len, [n] and `for`.
 
     frames: Images, or pixels, (H, W, 3). duration: of each frame in milliseconds, 20..10,000. file: the APNG, if a

@@ -6,6 +6,7 @@ import base64
 import hashlib
 import io
 import os
+import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import cached_property
 from pathlib import Path
@@ -17,12 +18,14 @@ from numpy.typing import ArrayLike, DTypeLike, NDArray
 from PIL import Image as PillowImage
 from PIL.PngImagePlugin import PngInfo
 
-from .chain import open_chain
-from .checks import fixed
+from .base.checks import fixed
+from .base.values import Value, array_key
+from .base.whole_file import check_output_file, write_output
+from .chain._chain import Drawing
+from .chain._opening import open_chain
 from .errors import InputError, RenderError
-from .scene import CHUNK, DIGEST, PICTURE, Scene, SceneChunk, scene_chunk
-from .values import Value, array_key
-from .whole_file import check_output_file, write_output
+from .scene._files.picture import CHUNK, DIGEST, PICTURE, SceneChunk, scene_chunk
+from .scene._scene import Scene
 
 Pixels = NDArray[np.uint8]
 
@@ -379,6 +382,23 @@ def decode_bmp(data: bytes, width: int, height: int) -> NDArray[np.uint8]:
             f" instead of {width} x {height} in {size:,}"
         )
     return pixels
+
+
+def render_whole(scene: Scene, draw: Callable[[Scene], Drawing], made_by: str, evm: str | None = None) -> Image:
+    """Render a scene by one call. draw: makes it. made_by, evm: see `Image`."""
+    started = time.perf_counter()
+    drawing = draw(scene)
+    seconds = time.perf_counter() - started
+    return Image(
+        pixels=decode_bmp(drawing.bmp, scene.width, scene.height),
+        bmp=drawing.bmp,
+        gas=drawing.gas,
+        intrinsic_gas=drawing.intrinsic_gas,
+        made_by=made_by,
+        seconds=seconds,
+        scene=scene,
+        evm=evm,
+    )
 
 
 MOST_COLORS = 256

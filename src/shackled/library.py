@@ -9,13 +9,15 @@ from functools import cache
 import numpy as np
 from numpy.typing import NDArray
 
-from .datasets import pieces
-from .datasets.common import models
-from .deploy import deployments
+from .datasets._pieces import pieces
+from .datasets.common._models import models
+from .deploy._contract import deployments
 from .errors import InputError
-from .scene import Material, Scene, fit
-from .studio import STUDIO, StoreTransaction, store_scene
-from .tokens import token_scene
+from .scene._in_range import in_range
+from .scene._object import Material
+from .scene._scene import Scene
+from .studio._storage import STUDIO, StoreTransaction, store_scene
+from .tokens._icons import token_scene
 
 #: Built-in pieces that are not one solid object, or not an object of which scenes are made.
 LEFT_OUT = {"cornell-box", "first-render", "wireframe-cube", "wireframe-icosphere"}
@@ -84,7 +86,7 @@ def chosen_items(names: Iterable[str]) -> list[Item]:
 
 def _item(piece: str, scene: Scene, studio: bytes) -> Item:
     transactions = store_scene(scene, studio)
-    fitted = fit(scene).objects
+    fitted = in_range(scene).objects
     # so that one box holds all meshes as they are
     assert all(np.array_equal(each.position, fitted[0].position) and each.scale == fitted[0].scale for each in fitted)
     points = np.concatenate([each.mesh.positions for each in fitted])

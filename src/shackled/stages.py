@@ -14,11 +14,16 @@ from numpy.typing import ArrayLike
 from PIL import Image as PillowImage
 from PIL import ImageDraw, ImageFont
 
-from .chain import Chain, open_chain
-from .checks import Floats
+from .base.checks import Floats
+from .base.values import plural
+from .chain._chain import Chain
+from .chain._opening import open_chain
 from .image import Pixels, decode_bmp
-from .scene import Background, Material, Mesh, Object, Scene, fit
-from .values import plural
+from .scene._effects import Background
+from .scene._in_range import in_range
+from .scene._mesh import Mesh
+from .scene._object import Material, Object
+from .scene._scene import Scene
 
 BLACK, WHITE = Background((0, 0, 0)), Background((255, 255, 255))
 #: The two greys of the checkerboard, and the side of its squares at 128 pixels.
@@ -47,7 +52,7 @@ class Stage:
 def draw_stages(scene: Scene, chain: Chain | None = None) -> list[Stage]:
     """Return the six stages of the paper, in their order. Errors as `render` raises them."""
     chain = chain or open_chain()
-    sent = fit(scene)
+    sent = in_range(scene)
     colors = np.concatenate([np.zeros((0, 3), np.uint8), *(o.mesh.colors for o in sent.objects)])
     seen, on_canvas = projected_points(sent, colors)
     drawing = chain.draw(scene)

@@ -13,17 +13,18 @@ from PIL import Image as PillowImage
 import shackled
 from shackled import InputError, Scene
 from shackled.artifacts import artifact
-from shackled.bench import EXPERIMENTS, Runner, call_renderer, fits, original, original_gas, scenes
+from shackled.bench import regression, scenes
 from shackled.bench._culling import culling
-from shackled.bench._measure import cost
-from shackled.bench._original import CODE_SIZES
+from shackled.bench._measure import call_renderer, cost
+from shackled.bench._original import CODE_SIZES, original, original_gas
 from shackled.bench._report import ExperimentReport, wrapped
-from shackled.chain import DEFAULT_GAS_LIMIT, open_chain
-from shackled.chain._embedded import SENDER
+from shackled.bench._runner import EXPERIMENTS, Runner
+from shackled.chain import open_chain
+from shackled.chain._embedded import DEFAULT_GAS_LIMIT, SENDER
 from shackled.cli.app import run
-from shackled.datasets import require
-from shackled.deploy import STANDARD
-from shackled.ethereum import to_hex
+from shackled.datasets._pieces import require
+from shackled.deploy._contract import STANDARD
+from shackled.ethereum._encoding import to_hex
 from shackled.scene._files.original import original_scene
 
 Rows = list[dict[str, str]]
@@ -116,7 +117,7 @@ def test_triangles(made: Path) -> None:
     pixels = column(rows, "lit_pixels")
     # of the same shape and size, and none over another
     assert pixels == [pixels[0] * count for count in (1, 2, 3, 4)]
-    assert fits.fit([[1, 2, 3, 4]], column(rows, "gas")).r2 > 0.9999
+    assert regression.fit([[1, 2, 3, 4]], column(rows, "gas")).r2 > 0.9999
     assert "34.07%" not in (made / "triangles.md").read_text("utf-8")  # that is of 16
 
 
@@ -160,7 +161,7 @@ def test_linear(made: Path) -> None:
     rows = rows_of(made, "linear")
     squares = [row for row in rows if row["series"] == "unlit squares"]
     assert column(squares, "triangles") == [2, 162, 578]
-    assert fits.fit([column(squares, "triangles")], column(squares, "gas")).r2 > 0.98
+    assert regression.fit([column(squares, "triangles")], column(squares, "gas")).r2 > 0.98
     assert "| original: equal triangles | " in (made / "linear.md").read_text("utf-8")
     assert "0.988797" in (made / "linear.md").read_text("utf-8")
 

@@ -7,7 +7,7 @@ from benchmarks import deployment
 from tools.pages import filled
 
 from shackled.deploy import deployments
-from shackled.evm import Instance, Status
+from shackled.evm._instance import Instance, Status
 
 
 def test_the_tables_are_up_to_date() -> None:

@@ -15,10 +15,10 @@ from benchmarks.original import recipe
 from benchmarks.original.documents import call_data, document
 
 from shackled import InputError
-from shackled.bench import call, original
-from shackled.bench._measure import cost
-from shackled.chain import RevmChain
-from shackled.ethereum import to_hex
+from shackled.bench._measure import call, cost
+from shackled.bench._original import original
+from shackled.chain._embedded import RevmChain
+from shackled.ethereum._encoding import to_hex
 from shackled.scene._files.original import original_scene
 
 #: The interface of the original: a token that leaves the work to a library.

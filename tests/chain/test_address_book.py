@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 from tools.children import child
 
-from shackled.chain import VARIABLE, AddressBook, book_path
+from shackled.chain._address_book import VARIABLE, AddressBook, book_path
 from shackled.errors import InputError, OutputError
 
 ONE, TWO = b"\x01" * 20, bytes.fromhex("5aAeb6053F3E94C9b9A09f33669435E7Ef1BeAed")
@@ -91,7 +91,7 @@ def test_a_full_disk_is_no_wrong_input(monkeypatch: pytest.MonkeyPatch, tmp_path
 
 def test_two_writers_lose_nothing(tmp_path: Path) -> None:
     code = (
-        "import sys\nfrom pathlib import Path\nfrom shackled.chain import AddressBook\n"
+        "import sys\nfrom pathlib import Path\nfrom shackled.chain._address_book import AddressBook\n"
         "book = AddressBook(Path(sys.argv[1]))\n"
         "for each in range(50):\n    book.write(int(sys.argv[2]) + each, {'Renderer': bytes(19) + b'\\1'})\n"
     )

@@ -12,11 +12,15 @@ from attrs import evolve
 
 from shackled import Camera, InputError, Light, Material, Mesh, Object, RenderError, Scene
 from shackled.artifacts import artifact, contracts, source
-from shackled.chain import CHAINS, ContractChain, RevmChain, open_chain
+from shackled.chain import open_chain
+from shackled.chain._chain import ContractChain
+from shackled.chain._embedded import RevmChain
+from shackled.chain._opening import CHAINS
 from shackled.errors import OutOfGasError
-from shackled.ethereum import intrinsic_gas
+from shackled.ethereum._encoding import intrinsic_gas
 from shackled.image import decode_bmp
-from shackled.scene import Rectangle, encode
+from shackled.scene import encode
+from shackled.scene._codec import Rectangle
 
 TETRAHEDRON = Mesh(
     [[1, 1, 1], [-1, -1, 1], [-1, 1, -1], [1, -1, -1]],

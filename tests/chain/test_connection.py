@@ -10,7 +10,8 @@ from typing import Any
 import pytest
 
 from nodes import Reply, failure, free_port, result, serving
-from shackled.chain import Connection, read_all
+from shackled.chain import Connection
+from shackled.chain._connection import read_all
 from shackled.chain._failures import retry_after, revert_data
 from shackled.errors import (
     ChainError,

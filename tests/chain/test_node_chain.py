@@ -16,8 +16,11 @@ from made_scenes import POT, SMALL_SCENES
 from nodes import Reply, anvil, failure, forward, geth, needs_anvil, replying, result, without_overrides
 from shackled import Camera, Material, Mesh, Nodes, Object, Scene, render
 from shackled.artifacts import RENDERER, artifact
-from shackled.chain import AddressBook, Drawing, EmbeddedChain, NodeChain, open_chain, open_node
-from shackled.chain._node import MAX_INIT_CODE
+from shackled.chain import open_chain, open_node
+from shackled.chain._address_book import AddressBook
+from shackled.chain._chain import Drawing
+from shackled.chain._embedded import EmbeddedChain
+from shackled.chain._node import MAX_INIT_CODE, NodeChain
 from shackled.errors import (
     InputError,
     NodeError,
@@ -26,9 +29,9 @@ from shackled.errors import (
     RevertError,
     WrongChainError,
 )
-from shackled.ethereum import checksum_address
+from shackled.ethereum._encoding import checksum_address
 from shackled.gas import render_call, search, suffices
-from shackled.scene import Rectangle
+from shackled.scene._codec import Rectangle
 
 pytestmark = needs_anvil
 

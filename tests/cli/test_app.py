@@ -15,10 +15,10 @@ import pytest
 
 from commands import Shackled
 from shackled import __version__, cli
-from shackled.chain import EmbeddedChain, RevmChain
+from shackled.base.synonyms import HINTS
+from shackled.chain._embedded import EmbeddedChain, RevmChain
 from shackled.cli.app import LINES, app, run
 from shackled.cli.option import with_options
-from shackled.words import INSTEAD
 
 needs_full = pytest.mark.skipif(not Path("/dev/full").exists(), reason="there is no /dev/full here")
 
@@ -57,7 +57,7 @@ def test_stopped_while_the_package_is_read_in() -> None:
 
 
 def test_refusals_and_interrupts_exit_with_1(shackled: Shackled, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("shackled._on.open_chain", lambda *_: RevmChain(gas_limit=50_000))
+    monkeypatch.setattr("shackled.parallel.places.open_chain", lambda *_: RevmChain(gas_limit=50_000))
     said = shackled("render shape.obj", expect=1)
     assert said.err == "shackled: the call ran out of gas: 50,000 gas is not enough\n"
 
@@ -215,7 +215,7 @@ MEANT = {
     "render shape.obj --fps 24": "option --fps: it is --duration",
     "render shape.obj --alpha": "option --alpha: it is --transparent",
     "gas shape.obj --bg red": "option --bg: it is --background",
-    "render shape.obj --intensity 2": f"option --intensity: {with_options(INSTEAD['intensity'])}",
+    "render shape.obj --intensity 2": f"option --intensity: {with_options(HINTS['intensity'])}",
 }
 
 

@@ -17,7 +17,7 @@ from tools.children import child
 from commands import Said, Shackled
 from nodes import KEY, Reply, failure, forward, free_port, serving
 from shackled.artifacts import artifact
-from shackled.chain import VARIABLE
+from shackled.chain._address_book import VARIABLE
 from shackled.deploy import deployments
 
 PASSWORD = "a pass phrase 77"

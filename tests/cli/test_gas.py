@@ -14,8 +14,10 @@ from nodes import anvil, needs_anvil
 from shackled import load, render
 from shackled.cli.app import app
 from shackled.datasets import Piece
-from shackled.gas import KINDS, STAGES, limits
-from shackled.scene import SETTINGS
+from shackled.gas import limits
+from shackled.gas._profile import KINDS
+from shackled.gas._stages import STAGES
+from shackled.scene._settings import SETTINGS
 
 
 @pytest.fixture

@@ -11,7 +11,7 @@ from PIL import Image as PillowImage
 from commands import Shackled
 from shackled import render
 from shackled.datasets.genesis import generate, seed_of
-from shackled.ethereum import keccak256
+from shackled.ethereum._encoding import keccak256
 
 
 def test_json_is_an_object_a_line(shackled: Shackled) -> None:

@@ -14,11 +14,14 @@ import pytest
 from PIL import Image as PillowImage
 
 from commands import Shackled
-from shackled import Camera, InputError, Mesh, Object, Rim, Scene, Tone, load, render, whole_file
-from shackled.chain import CHAINS, RevmChain
+from shackled import Camera, InputError, Mesh, Object, Rim, Scene, Tone, load, render
+from shackled.base import whole_file
+from shackled.chain._embedded import RevmChain
+from shackled.chain._opening import CHAINS
 from shackled.cli.app import run
 from shackled.gas import limits
-from shackled.scene import Hemisphere, render_call
+from shackled.scene import Hemisphere
+from shackled.scene._codec import render_call
 from shackled.studio import make_apng
 
 

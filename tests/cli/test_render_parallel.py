@@ -18,9 +18,9 @@ from tools.children import child
 
 from commands import Shackled
 from nodes import anvil, needs_anvil
-from shackled.chain import Drawing
+from shackled.base.whole_file import write_whole
+from shackled.chain._chain import Drawing
 from shackled.parallel._backends import draw_part
-from shackled.whole_file import write_whole
 
 PATIENCE = 60
 
@@ -167,7 +167,7 @@ def test_a_picture_that_cannot_be_written_keeps_its_parts(shackled: Shackled, mo
             raise OSError(28, "No space left on device")
         write_whole(path, data)
 
-    monkeypatch.setattr("shackled.whole_file.write_whole", full_but_for_parts)
+    monkeypatch.setattr("shackled.base.whole_file.write_whole", full_but_for_parts)
     said = shackled("render shape.obj --size 48 --tile 48x12", expect=1)
     assert said.err.splitlines()[1:] == [
         "shackled: finished parts are kept in shape.png.parts: run the same command to resume",

@@ -15,7 +15,7 @@ from PIL import Image as PillowImage
 
 from commands import Shackled
 from shackled import Scene, render
-from shackled.chain import RevmChain
+from shackled.chain._embedded import RevmChain
 from shackled.cli import progress
 
 

@@ -20,7 +20,7 @@ from trimesh.exchange.gltf import export_gltf
 from commands import Shackled
 from shackled import Mesh, load, render
 from shackled.cli.streams import stdin_file
-from shackled.scene import render_call
+from shackled.scene._codec import render_call
 
 Command = Callable[..., "subprocess.CompletedProcess[bytes]"]
 

@@ -28,8 +28,9 @@ from conformance import opengl
 from conformance.compare import ANOTHER, compare
 from judge.verdict import Verdict, report
 from random_scenes import random_scene
-from shackled.datasets import pieces, require
-from shackled.scene import resize
+from shackled.datasets import pieces
+from shackled.datasets._pieces import require
+from shackled.scene._look import resize
 
 #: Sides of the pictures of built-in pieces, in pixels.
 SIZES = (128, 512)

@@ -15,7 +15,7 @@ from judge import Picture, Verdict, render
 from judge.verdict import MANY, MEAN_OF_SCENE, MOST
 from pictures import UNLIT, Pixels, call_data, draw
 from shackled import Background, Mesh, Object, Scene
-from shackled.scene import fit
+from shackled.scene._in_range import in_range
 
 from . import opengl
 from .world import before_camera
@@ -52,7 +52,7 @@ def picture(scene: Scene) -> Drawing:
 
 def solid(scene: Scene) -> Scene:
     """Return the scene without wires, in the numbers that the contracts get."""
-    return fit(evolve(scene, objects=[o for o in scene.objects if not o.wireframe]))
+    return in_range(evolve(scene, objects=[o for o in scene.objects if not o.wireframe]))
 
 
 def _painted(objects: Iterable[Object], colors: NDArray[np.int64]) -> Iterator[Object]:

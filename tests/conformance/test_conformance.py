@@ -14,8 +14,9 @@ from made_scenes import flat, teapot_scene
 from pictures import call_data
 from random_scenes import random_scene
 from shackled import Material, Mesh, Object, Scene
-from shackled.datasets import require
-from shackled.scene import fit, resize
+from shackled.datasets._pieces import require
+from shackled.scene._in_range import in_range
+from shackled.scene._look import resize
 
 from . import compare as comparison
 from . import opengl
@@ -62,7 +63,7 @@ def test_built_in_pieces(name: str) -> None:
 def test_opengl_and_the_judge_agree(scene: Scene) -> None:
     """Two programs that share nothing with the contracts, but the formula."""
     scene = evolve(scene, width=256, height=256)
-    theirs, exact = opengl.draw(before_camera(scene)), render(call_data("render", fit(scene)))
+    theirs, exact = opengl.draw(before_camera(scene)), render(call_data("render", in_range(scene)))
     assert (theirs.triangle != exact.triangle).mean() < 0.001
     same = interior(theirs.triangle) & (theirs.triangle == exact.triangle)
     assert same.sum() > 500
@@ -118,7 +119,7 @@ def squares(*depths: float) -> Scene:
 
 def test_what_a_pixel_may_show() -> None:
     # 32 pixels to a unit of the world at a distance of 10, so the square of 2 units is 64 / 2 pixels wide
-    judged = render(call_data("render", fit(squares(0.0, 1.0))))
+    judged = render(call_data("render", in_range(squares(0.0, 1.0))))
     # in the middle of a half: the nearer of the two; its number is 2 or 3
     assert judged.may_show(36, 30).tolist() == [2]
     assert judged.may_show(28, 34).tolist() == [3]
@@ -126,4 +127,4 @@ def test_what_a_pixel_may_show() -> None:
     # on the diagonal that both halves share
     assert judged.may_show(31, 32).tolist() == [2, 3]
     # at equal depth any
-    assert render(call_data("render", fit(squares(0.0, 0.0)))).may_show(36, 30).tolist() == [0, 2]
+    assert render(call_data("render", in_range(squares(0.0, 0.0)))).may_show(36, 30).tolist() == [0, 2]

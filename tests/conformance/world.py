@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from shackled import Camera, Light, Material, Scene
-from shackled.scene import vertex_normals
-from shackled.scene._fit import near_plane
+from shackled.scene._in_range import near_plane
+from shackled.scene._mesh import vertex_normals
 
 Array = NDArray[np.float64]
 

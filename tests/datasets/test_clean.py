@@ -10,13 +10,13 @@ import numpy as np
 import pytest
 
 from shackled import Mesh
-from shackled.datasets.common import fetch
-from shackled.datasets.common import model as find_model
 from shackled.datasets.common._clean import MAX_TRIANGLES, capped, clean, placed, prepare, reduce
+from shackled.datasets.common._fetch import fetch
+from shackled.datasets.common._models import model as find_model
 from shackled.datasets.common.shapes import icosphere, torus
 from shackled.errors import InputError
-from shackled.scene import is_closed, simplify
-from shackled.scene._staging import signed_volume
+from shackled.scene._simplify import simplify
+from shackled.scene._staging import is_closed, signed_volume
 
 SHARED = Path(os.environ.get("SHACKLED_SHARED", Path(__file__).resolve().parents[3] / "shared"))
 

@@ -11,11 +11,12 @@ from attrs import evolve
 
 import shackled
 from shackled import Mesh
-from shackled.datasets import Piece, require
-from shackled.datasets.common import builtin, models, shapes
+from shackled.datasets import Piece
+from shackled.datasets._pieces import require
+from shackled.datasets.common import builtin, shapes
 from shackled.datasets.common._cornell_box import EYE, HEIGHT, cornell_box
-from shackled.scene import is_closed
-from shackled.scene._staging import signed_volume
+from shackled.datasets.common._models import models
+from shackled.scene._staging import is_closed, signed_volume
 
 CLOSED: dict[Callable[..., Mesh], tuple[int, float | None]] = {
     shapes.tetrahedron: (4, 8 * 3**0.5 / 27),

@@ -14,9 +14,10 @@ from PIL import Image as PillowImage
 
 import shackled
 from shackled.cli.app import run
-from shackled.datasets import DATASETS, Piece, PieceCost, cost, draw_all, find, page, pieces, require, sheet
-from shackled.datasets._drawing import draw, table
-from shackled.datasets.common import models
+from shackled.datasets import Piece, find, pieces
+from shackled.datasets._drawing import PieceCost, cost, draw, draw_all, page, sheet, table
+from shackled.datasets._pieces import DATASETS, require
+from shackled.datasets.common._models import models
 from shackled.errors import InputError
 
 

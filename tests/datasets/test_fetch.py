@@ -20,8 +20,9 @@ import trimesh
 
 import shackled
 from shackled.cli.app import run
-from shackled.datasets import PieceCost, cost, require
-from shackled.datasets.common import fetch
+from shackled.datasets._drawing import PieceCost, cost
+from shackled.datasets._pieces import require
+from shackled.datasets.common._fetch import fetch
 from shackled.datasets.common._models import Model
 from shackled.errors import FetchError, InputError
 

@@ -9,7 +9,8 @@ import pytest
 from eth_account import Account
 
 from nodes import KEY
-from shackled.deploy import environment_account, keystore_account, read_keystore
+from shackled.deploy import environment_account, keystore_account
+from shackled.deploy._account import read_keystore
 from shackled.errors import InputError
 
 ADDRESS = "0xf39Fd6e51aad88F6F4ce6aB8827279cffFb92266"

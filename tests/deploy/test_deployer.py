@@ -13,21 +13,13 @@ from eth_account import Account
 from nodes import KEY, Node, Reply, anvil, failure, forward, needs_anvil, replying, result
 from proxies import Liar
 from shackled.artifacts import RENDERER, artifact
-from shackled.chain import AddressBook, Connection
-from shackled.deploy import (
-    CONTRACTS,
-    STANDARD,
-    Deployer,
-    Deployment,
-    Plan,
-    Transactor,
-    deployment,
-    deployments,
-    local_chain,
-)
-from shackled.deploy._contract import PROXY_CODE
+from shackled.chain import Connection
+from shackled.chain._address_book import AddressBook
+from shackled.deploy import Deployer, Transactor, deployment, deployments
+from shackled.deploy._contract import CONTRACTS, PROXY_CODE, STANDARD, Deployment, local_chain
+from shackled.deploy._deployer import Plan
 from shackled.errors import ChainError, InputError, TransactionError, WrongChainError
-from shackled.ethereum import PROXY, create2_address, to_hex
+from shackled.ethereum._encoding import PROXY, create2_address, to_hex
 
 
 @pytest.fixture

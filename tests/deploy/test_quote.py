@@ -9,9 +9,9 @@ import pytest
 
 from nodes import Reply, failure, result, serving
 from shackled.chain import Connection
-from shackled.deploy import Call, Fees, Quote, current_fees, make_quotes
+from shackled.deploy._quote import Call, Fees, Quote, current_fees, make_quotes
 from shackled.errors import NoAnswerError, NodeError, TransactionError
-from shackled.ethereum import GWEI
+from shackled.ethereum._amounts import GWEI
 
 SENDER, PLACE = b"\x11" * 20, b"\x22" * 20
 FEES = Fees(likely=3, most=7, tip=1)

@@ -15,10 +15,11 @@ from nodes import KEY, Node, Reply, anvil, failure, forward, needs_anvil, replyi
 from proxies import Liar
 from shackled.artifacts import artifact
 from shackled.chain import Connection
-from shackled.deploy import Call, Quote, Transactor, make_quotes
-from shackled.deploy._quote import FIELDS, ORACLE
+from shackled.deploy import Transactor
+from shackled.deploy._quote import FIELDS, ORACLE, Call, Quote, make_quotes
 from shackled.errors import ChainError, NodeError, NodeUnreachableError, TransactionError
-from shackled.ethereum import ETHER, GWEI, PROXY, to_hex, word
+from shackled.ethereum._amounts import ETHER, GWEI
+from shackled.ethereum._encoding import PROXY, to_hex, word
 
 pytestmark = needs_anvil
 SOMEONE = b"\x77" * 20

@@ -15,8 +15,9 @@ from tools.build_contracts import compile_once
 from compiler import needs_compiler
 from shackled import artifacts
 from shackled.artifacts import artifact, contracts, source, standard_input
-from shackled.deploy import CONTRACTS, deployments, write_verification
-from shackled.ethereum import checksum_address
+from shackled.deploy import deployments
+from shackled.deploy._contract import CONTRACTS, write_verification
+from shackled.ethereum._encoding import checksum_address
 
 #: `make verify` compiles all groups, `make test` one with sources of a library.
 CHOSEN = os.environ.get("VERIFY", "png")

@@ -11,18 +11,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from shackled.artifacts import known_errors
-from shackled.chain import describe_revert
+from shackled.chain._failures import describe_revert
 from shackled.errors import InputError
-from shackled.ethereum import (
-    SOLIDITY_ERRORS,
-    Interface,
-    decode_error,
-    decode_values,
-    encode_values,
-    error_table,
-    keccak256,
-    word,
-)
+from shackled.ethereum._abi import SOLIDITY_ERRORS, Interface, decode_error, decode_values, encode_values, error_table
+from shackled.ethereum._encoding import keccak256, word
 
 # the examples of the specification of the ABI: docs.soliditylang.org/en/latest/abi-spec.html
 FOO = Interface(

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from shackled.errors import InputError
-from shackled.ethereum import (
+from shackled.ethereum._encoding import (
     checksum_address,
     create2_address,
     encode_header,

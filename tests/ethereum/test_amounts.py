@@ -5,7 +5,7 @@ from collections.abc import Callable
 import pytest
 
 from shackled.errors import InputError
-from shackled.ethereum import ETHER, GWEI, at_most, ether, parse_ether, roughly, rounded
+from shackled.ethereum._amounts import ETHER, GWEI, at_most, ether, parse_ether, roughly, rounded
 
 
 def test_amounts_are_read_exactly() -> None:

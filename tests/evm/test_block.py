@@ -6,8 +6,8 @@ import pytest
 
 from evms import ADDRESS, Ours, pyrevm_call
 from shackled import InputError
-from shackled.ethereum import keccak256, word
-from shackled.evm import Answer, Instance, Status
+from shackled.ethereum._encoding import keccak256, word
+from shackled.evm._instance import Answer, Instance, Status
 
 Block = tuple[int, int, bytes]
 

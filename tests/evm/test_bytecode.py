@@ -10,7 +10,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from evms import ADDRESS, REGIONS, Ours, pyevm_call, pyrevm_call
-from shackled.evm import Answer, Status
+from shackled.evm._instance import Answer, Status
 
 GAS = 100_000
 ONES = (1 << 256) - 1

@@ -20,8 +20,9 @@ from programs import differences, program, push
 from random_scenes import broken_call, random_case
 from shackled import InputError, load
 from shackled.artifacts import artifact
-from shackled.chain import RevmChain
-from shackled.evm import Answer, Instance, Status, _compiled
+from shackled.chain._embedded import RevmChain
+from shackled.evm import _compiled
+from shackled.evm._instance import Answer, Instance, Status
 from shackled.scene import encode
 
 IS_LONG = os.environ.get("HYPOTHESIS_PROFILE") == "new"

@@ -18,9 +18,9 @@ import pytest
 from tools.children import child
 
 from shackled import ChainError, InputError
-from shackled.chain import RevmChain
-from shackled.ethereum import word
-from shackled.evm import Instance, Status
+from shackled.chain._embedded import RevmChain
+from shackled.ethereum._encoding import word
+from shackled.evm._instance import Instance, Status
 
 ADDRESS = bytes(18) + b"\xc0\xde"
 #: JUMPDEST PUSH0 JUMP: 11 gas a round, until the gas ends.
@@ -142,7 +142,7 @@ if limit:
     import resource
     resource.setrlimit(getattr(resource, limit), (value, value))
 from shackled import ChainError
-from shackled.evm import Instance
+from shackled.evm._instance import Instance
 try:
     made = Instance()
     made.put(bytes(20), bytes.fromhex("6001 63%08x 52 602a 5f 52 6020 5f f3" % memory))
@@ -320,7 +320,7 @@ def test_another_thread_stops_a_call() -> None:
 #: Threads drop instances while the process ends.
 DROP = """
 import threading
-from shackled.evm import Instance
+from shackled.evm._instance import Instance
 
 made = [Instance() for _ in range(24)]
 ready = threading.Barrier(25)

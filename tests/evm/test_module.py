@@ -16,7 +16,7 @@ import wasmtime
 from tools import build_evm as tool
 
 from shackled.artifacts import source
-from shackled.evm import module_bytes
+from shackled.evm._module import module_bytes
 
 ROOT = Path(__file__).resolve().parents[2]
 

@@ -14,13 +14,17 @@ from pictures import call_data, words
 from random_scenes import broken_call, random_case
 from shackled import load
 from shackled.artifacts import artifact
-from shackled.chain import ContractChain, EmbeddedChain, NodeChain, RevmChain, open_node
+from shackled.chain import open_node
+from shackled.chain._chain import ContractChain
+from shackled.chain._embedded import EmbeddedChain, RevmChain
+from shackled.chain._node import NodeChain
 from shackled.datasets import pieces
 from shackled.errors import ChainError
-from shackled.ethereum import to_hex
-from shackled.evm import Answer, Status
+from shackled.ethereum._encoding import to_hex
+from shackled.evm._instance import Answer, Status
 from shackled.gas import search, suffices
-from shackled.scene import Rectangle, encode
+from shackled.scene import encode
+from shackled.scene._codec import Rectangle
 from test_bad_input_on_chain import WRONG, encoded, small_scene, values
 
 GAS = 30_000_000_000

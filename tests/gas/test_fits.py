@@ -8,8 +8,9 @@ import pytest
 
 from shackled import load
 from shackled.chain import open_chain
-from shackled.gas import fits_as_json, fits_of, headline, known_chains, limits, measure, render_call, search, suffices
-from shackled.scene import resize
+from shackled.gas import known_chains, limits, measure, render_call, search, suffices
+from shackled.gas._limits import fits_as_json, fits_of, headline
+from shackled.scene._look import resize
 
 MOST = "free to read on most nodes"
 TOO_MUCH = "too much for a contract to draw inside a transaction"

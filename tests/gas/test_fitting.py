@@ -6,13 +6,15 @@ import pytest
 from attrs import evolve
 
 from shackled import InputError, Scene, load, render
-from shackled.chain import CallResult, open_chain
+from shackled.chain import open_chain
+from shackled.chain._chain import CallResult
 from shackled.cli.look_options import FIT
 from shackled.datasets import teapot
 from shackled.errors import InputWarning
-from shackled.gas import fit_scene, fits_of, limits, measure, render_call, suffices
+from shackled.gas import fit_scene, limits, measure, render_call, suffices
 from shackled.gas._fitting import FITS, Fitted
-from shackled.scene import resize
+from shackled.gas._limits import fits_of
+from shackled.scene._look import resize
 
 LIMITS = {what: next(limit for limit in limits() if limit.place == place) for what, place in FITS.items()}
 

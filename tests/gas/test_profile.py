@@ -12,12 +12,15 @@ from pictures import call, dynamic
 from shackled import load
 from shackled.artifacts import artifact, source
 from shackled.chain import open_chain
-from shackled.deploy import STANDARD
-from shackled.gas import KINDS, STAGES, Profile, flame_graph, measure, profile, render_call
-from shackled.gas._flame_graph import MARGIN, WIDTH
+from shackled.deploy._contract import STANDARD
+from shackled.gas import measure, profile, render_call
+from shackled.gas._flame_graph import MARGIN, WIDTH, flame_graph
+from shackled.gas._profile import KINDS, Profile
 from shackled.gas._source_map import source_map
+from shackled.gas._stages import STAGES
 from shackled.gas._trace import CallFrame, trace
-from shackled.scene import Rectangle, fit
+from shackled.scene._codec import Rectangle
+from shackled.scene._in_range import in_range
 
 NAMES = tuple(SMALL_SCENES)
 
@@ -45,7 +48,7 @@ def test_all_add_up_to_the_gas(name: str, profiles: dict[str, Profile]) -> None:
     assert totals["Renderer"] == exact.gas
     if name in ENGINE_OF:  # measured by a call of its own
         engine, whole = ENGINE_OF[name], Rectangle(0, 0, SMALL_SCENES[name].width, SMALL_SCENES[name].height)
-        data = dynamic(call("engineCall", fit(SMALL_SCENES[name]), whole).output)
+        data = dynamic(call("engineCall", in_range(SMALL_SCENES[name]), whole).output)
         assert totals[engine] == chain.call(engine, data).gas
     assert all(cost.gas > 0 for cost in found.costs)
 

@@ -8,8 +8,9 @@ import pytest
 from attrs import evolve
 
 from shackled import Light, Material, Mesh, Object, Scene, Texture, Tone, load
-from shackled.gas import measure, missed_quick_path, quick_path_note
-from shackled.scene import resize
+from shackled.gas import measure, missed_quick_path
+from shackled.gas._quick_path import quick_path_note
+from shackled.scene._look import resize
 
 CORNERS, FACES = [[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]], [[0, 1, 2], [0, 2, 3]]
 #: The second face has a corner of another colour.

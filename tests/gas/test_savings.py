@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from shackled import load, render
-from shackled.chain import RevmChain
+from shackled.chain._embedded import RevmChain
 from shackled.errors import OutOfGasError
 from shackled.gas import measure
 

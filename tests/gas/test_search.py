@@ -9,9 +9,9 @@ from made_scenes import SMALL_SCENES
 from shackled import RenderError
 from shackled.chain import open_chain
 from shackled.errors import OutOfGasError
-from shackled.gas import SearchStep, measure, render_call, search, suffices
+from shackled.gas import measure, render_call, search, suffices
 from shackled.gas._limits import KEPT, floor_gas, needed_for
-from shackled.gas._search import FIRST_LIMIT
+from shackled.gas._search import FIRST_LIMIT, SearchStep
 
 NAMES = tuple(SMALL_SCENES)
 

@@ -19,10 +19,13 @@ from .shadows import Shadows
 from .visibility import AROUND, TOLERANCE, Seen
 from .world import Booleans, World
 
-#: What is documented beside the formulas: the colour of slivers; that a face is not in shadow if it is seen from the
-#: side that is turned away from the light; that a face which is clipped is drawn as several triangles, so that pixels
-#: between them have several fragments; the lines of sight of wires; that pixels within a smooth surface have the colour
-#: of one of its triangles, which covers their first sample, whole; and may be from a part of it that is hidden beside.
+#: Where pictures may differ from the formulas; docs/conformance.md has a row for each.
+#: slivers: a triangle of less than a pixel may have another colour.
+#: backs: a face that is seen from the side that is turned away from the light is not in shadow.
+#: fans: a clipped face is drawn as several triangles; a pixel on an edge between them has a fragment of each.
+#: wires: the line of sight to a wire is that of another point of it.
+#: wholes: a pixel inside a smooth surface has the colour of the triangle that covers its first sample, or of a part of
+#: the surface next to it that is hidden.
 RULES = ("slivers", "backs", "fans", "wires", "wholes")
 #: The number of the last one.
 WHOLES = RULES.index("wholes")

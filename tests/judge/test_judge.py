@@ -10,7 +10,7 @@ from picture import SAMPLES
 from pictures import WHITE, call_data, draw
 from random_scenes import TAME, random_scene
 from shackled import Background, Camera, Light, Material, Mesh, Object, Scene, Texture, load
-from shackled.scene import fit
+from shackled.scene._in_range import in_range
 from shackled.scene._object import Shading
 
 from . import Picture, Verdict, draw_in_tiles, judge, judge_pixels, render
@@ -35,9 +35,9 @@ def one_triangle(look: Material, *lights: Light) -> Scene:
 def test_light_at_the_edge_of_a_thin_triangle() -> None:
     """Two of four samples, of 128 and 127."""
     lit = one_triangle(Material("smooth"), Light.directional(toward=(-0.14, 0.97, 0.84)))
-    assert draw(fit(lit))[32, 104, 0] in (63, 64)
+    assert draw(in_range(lit))[32, 104, 0] in (63, 64)
     assert judge("thin", lit).faults == []
-    assert draw(fit(one_triangle(Material("unlit"))))[32, 104, 0] == 100
+    assert draw(in_range(one_triangle(Material("unlit"))))[32, 104, 0] == 100
 
 
 @pytest.mark.parametrize("order", [1, -1])
@@ -50,7 +50,7 @@ def test_shadow_where_two_solids_meet(order: int) -> None:
     boxes = [Object(Mesh(points, faces, GREY), material=Material("flat", 0.2, 0.8, 0)) for points in sizes]
     light = Light("directional", (0, 1, -1), shadow=True)
     scene = Scene(boxes[::order], Camera((0, 3, 4), (0, 0, 0)), [light], BLACK, width=96, height=96, antialias=True)
-    assert set(draw(fit(scene))[51, 37:59, 0].tolist()) == {40}
+    assert set(draw(in_range(scene))[51, 37:59, 0].tolist()) == {40}
     assert judge("boxes", scene).faults == []
 
 
@@ -70,7 +70,7 @@ def test_hidden_sliver() -> None:
     )
     thing = Object(mesh, material=Material("unlit"))
     scene = Scene([thing], camera, [], BLACK, width=128, height=128, antialias=True)
-    assert draw(fit(scene))[119, 69].tolist() == [0, 200, 0]
+    assert draw(in_range(scene))[119, 69].tolist() == [0, 200, 0]
     assert judge("sliver", scene).faults == []
 
 
@@ -96,10 +96,10 @@ def test_texture_of_a_clipped_face() -> None:
     thing = Object(board, material=Material("unlit", texture=Texture(checks, "nearest", "repeat")), cull=False)
     camera = Camera((0.2, 0.6, 0.5), (0.1, -0.3, -3), half_height=0.6, near=0.1)
     scene = Scene([thing], camera, [], BLACK, width=128, height=128)
-    drawn = draw(fit(scene))
+    drawn = draw(in_range(scene))
     assert set(drawn[55, 125:, 0].tolist()) == {255}
     assert judge("board", scene).faults == []
-    assert np.array_equal(drawn, draw_in_tiles(fit(scene)))
+    assert np.array_equal(drawn, draw_in_tiles(in_range(scene)))
 
 
 @pytest.mark.parametrize("antialias", [False, True])
@@ -115,7 +115,7 @@ def test_no_shadow_falls_on_wires(antialias: bool) -> None:
     things, light = [evolve(low, wireframe=True), high], Light("directional", (0.3, 1, 0.1), shadow=True)
     scene = Scene(things, camera, [light], BLACK, width=64, height=64, antialias=antialias)
     # a pixel in which no sample of a wire is covered, or 1 to 4 are: 200 * (0.2 + 0.8 * N.L) is 193
-    assert set(draw(fit(scene)).ravel().tolist()) == {0, 48, 97, 145, 193}
+    assert set(draw(in_range(scene)).ravel().tolist()) == {0, 48, 97, 145, 193}
     assert judge("wires", scene).faults == []
 
 
@@ -136,11 +136,11 @@ ERRORS = [(128, 20, 23), (128, 128, 103), (512, 20, 6), (512, 128, 35)]
 @pytest.mark.parametrize(("size", "shininess", "most"), ERRORS)
 def test_highlight_of_wires(size: int, shininess: int, most: int) -> None:
     """Steep wires are off by what is documented, and are as the rule of wires says; antialiased ones are right."""
-    scene = fit(tilted_wire(4, size, shininess, False))
+    scene = in_range(tilted_wire(4, size, shininess, False))
     drawn, right = draw(scene), render(call_data("render", scene))
     assert round(outside(drawn, right.low, right.high).max()) == most
     assert outside(drawn, *right.explained["wires"]).max() < 0.5
-    smoothed = fit(tilted_wire(4, size, shininess, True))
+    smoothed = in_range(tilted_wire(4, size, shininess, True))
     right = render(call_data("render", smoothed))
     assert outside(draw(smoothed), right.low, right.high).max() < 2
 
@@ -168,7 +168,7 @@ def test_coverage_of_a_square() -> None:
     camera = Camera((32, 32, 10), (32, 32, 0), projection="orthographic", half_height=32)
     thing = Object(mesh, material=Material("unlit"), cull=False)
     scene = Scene([thing], camera, [], BLACK, width=16, height=16, antialias=True)
-    right = render(call_data("render", fit(scene)))
+    right = render(call_data("render", in_range(scene)))
     places = np.arange(16)[:, None] + 0.5 + SAMPLES.T[:, None]
     columns = (places[0] > 4) & (places[0] < 12.25)
     rows = (places[1] > 3.5) & (places[1] < 12)
@@ -191,7 +191,7 @@ def test_light_of_a_sphere(shading: Shading) -> None:
     scene = Scene(
         [Object(white, material=material)], camera, [Light.directional(toward=light)], BLACK, width=65, height=65
     )
-    right = render(call_data("render", fit(scene)))
+    right = render(call_data("render", in_range(scene)))
     x, y = (np.arange(65) - 32) / 32.5 * 1.25, (32 - np.arange(65)) / 32.5 * 1.25
     x, y = np.meshgrid(x, y)
     inside = x**2 + y**2 < 0.8
@@ -206,7 +206,7 @@ def test_light_of_a_sphere(shading: Shading) -> None:
 
 @pytest.fixture(scope="module")
 def teapot() -> tuple[Scene, Picture]:
-    scene = fit(load("teapot", size=96, shadow=True, ground="tan", antialias=True))
+    scene = in_range(load("teapot", size=96, shadow=True, ground="tan", antialias=True))
     return scene, render(call_data("render", scene))
 
 
@@ -228,7 +228,7 @@ def test_one_pixel_is_found(teapot: tuple[Scene, Picture]) -> None:
 
 def test_a_shift_is_found() -> None:
     """By a fifth of a pixel."""
-    scene = fit(load("teapot", size=96, antialias=True, shading="flat"))
+    scene = in_range(load("teapot", size=96, antialias=True, shading="flat"))
     right = render(call_data("render", scene))
     camera = scene.camera
     forward = camera.target - camera.eye

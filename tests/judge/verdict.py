@@ -13,7 +13,8 @@ from pictures import Pixels, call_data
 from pictures import draw as drawn_by_contracts
 from shackled import Scene
 from shackled.parallel._tiles import grid
-from shackled.scene import Rectangle, fit
+from shackled.scene._codec import Rectangle
+from shackled.scene._in_range import in_range
 
 from .composition import Picture, render
 
@@ -111,7 +112,7 @@ def report(results: Iterable[tuple[str, Verdict]], rules: Iterable[str] = RARE) 
 
 def judge(name: str, scene: Scene, draw: Callable[[Scene], Pixels] = drawn_by_contracts) -> Verdict:
     """Draw a scene and judge its picture."""
-    scene = fit(scene)
+    scene = in_range(scene)
     return judge_pixels(name, draw(scene), render(call_data("render", scene)))
 
 

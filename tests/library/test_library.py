@@ -12,7 +12,6 @@ import pytest
 from eth_abi.abi import decode as decode_abi
 from eth_utils.crypto import keccak
 from PIL import Image as PillowImage
-from tools import library as tool
 from tools.docs.draw_library import Shelf
 
 import gltf_reader
@@ -21,11 +20,12 @@ from shackled import render
 from shackled.artifacts import artifact
 from shackled.cli.app import run
 from shackled.errors import InputError
-from shackled.ethereum import word
-from shackled.evm import Status
+from shackled.ethereum._encoding import word
+from shackled.evm._instance import Status
 from shackled.image import decode_bmp
 from shackled.library import chosen_items, items
-from shackled.scene import encode_scene, fit
+from shackled.scene._codec import encode_scene
+from shackled.scene._in_range import in_range
 
 #: The first byte of a pointer to a mesh (contracts/src/mesh/Kinds.sol).
 POINTED = 0x12
@@ -48,10 +48,6 @@ def ask(shelf: Shelf, path: str, **parameters: str) -> tuple[int, bytes, dict[st
     return shelf.ask(shelf.addresses["Web"], path, **parameters)
 
 
-def test_the_table_is_up_to_date() -> None:
-    assert tool.TABLE.read_text("utf-8") == tool.source(), "run tools/library.py"
-
-
 def test_items_by_name(shelf: Shelf) -> None:
     assert call(shelf, "Library", "names") == tuple(each.name for each in items())
     assert sum(each.is_icon for each in items()) == 28
@@ -72,7 +68,7 @@ def test_objects_that_fit(shelf: Shelf, name: str) -> None:
     objects = call(shelf, "Library", "objects", name, 100 << 32)
     interface = artifact("Renderer").interface
     struct = interface.parameter_type("render")
-    (scene,) = decode_abi([struct], word(32) + encode_scene(fit(item.scene)))
+    (scene,) = decode_abi([struct], word(32) + encode_scene(in_range(item.scene)))
     assert [each[0] for each in objects] == [bytes([POINTED]) + mesh for mesh in item.meshes]
     for (_, position, rotation, scale, material, flags), expected in zip(objects, scene[-2], strict=True):
         sides = (item.high - item.low) * scale / 2**32

@@ -21,7 +21,7 @@ from shackled import render
 from shackled.artifacts import artifact
 from shackled.datasets import pieces
 from shackled.library import chosen_items, items
-from shackled.scene import from_euler, rotate
+from shackled.scene._arithmetic import from_euler, rotate
 
 ROOT = Path(__file__).resolve().parents[2]
 SITE = "examples/library/PedestalSite.sol"

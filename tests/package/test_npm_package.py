@@ -26,8 +26,9 @@ from compiler import needs_compiler
 from shackled import Image, render
 from shackled.artifacts import artifact, standard_input
 from shackled.cli.app import run as run_shackled
-from shackled.deploy import CONTRACTS, deployments
-from shackled.ethereum import to_hex
+from shackled.deploy import deployments
+from shackled.deploy._contract import CONTRACTS
+from shackled.ethereum._encoding import to_hex
 from shackled.scene import decode
 
 HERE = Path(__file__).resolve().parent

@@ -22,12 +22,12 @@ from compiler import needs_compiler
 from nodes import KEY, anvil, needs_anvil
 from shackled import render
 from shackled.chain import Connection
-from shackled.datasets import require
+from shackled.datasets._pieces import require
 from shackled.datasets.genesis import seed_of
 from shackled.deploy import Deployer, Transactor, deployment, deployments, environment_account
-from shackled.ethereum import checksum_address
+from shackled.ethereum._encoding import checksum_address
 from shackled.library import chosen_items
-from shackled.scene import Scene
+from shackled.scene._scene import Scene
 from shackled.tokens import SceneToStore, plan_storage, store
 
 HERE = Path(__file__).resolve().parent

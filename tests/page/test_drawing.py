@@ -12,7 +12,7 @@ from examples.showcase import glass
 
 from creator_page import PHONE, Creator, Visit, drawn, scene
 from shackled import load, render
-from shackled.scene import render_call
+from shackled.scene._codec import render_call
 
 TOWN = scene("cube", {"mesh": {"piece": "cone", "object": 0}, "position": [3, 0, 0], "color": "#d04020"}, size=64)
 #: Seconds of drawing: to see what is shown meanwhile, and to stop it.

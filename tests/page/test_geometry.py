@@ -14,9 +14,10 @@ from numpy.typing import NDArray
 from node_scripts import asked, needs_web
 from shackled.datasets import pieces
 from shackled.errors import InputWarning
-from shackled.scene import Mesh, Object, is_closed, weld
 from shackled.scene._crease import creased
-from shackled.scene._staging import signed_volume
+from shackled.scene._mesh import Mesh, weld
+from shackled.scene._object import Object
+from shackled.scene._staging import is_closed, signed_volume
 from shackled.scene._winding import wound
 
 SCRIPT = Path(__file__).with_name("geometry.ts")

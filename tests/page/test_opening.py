@@ -15,7 +15,6 @@ from PIL import Image as PillowImage
 import shackled
 from creator_page import OBJ, Creator, Visit, drawn, link, scene
 from shackled.datasets.common import shapes
-from shackled.scene import encode_scene_file
 
 SEED = hashlib.sha256(b"any").hexdigest()
 MTL = b"newmtl m\nKd 1 0 0\n"
@@ -58,7 +57,7 @@ def test_the_shelf(visit: Visit) -> None:
         found = json.loads(page.run("JSON.stringify(await app.assets.piece(argument))", name))
         dataset, _, example = name.partition("/")
         expected = SCENES[example]() if dataset == "showcase" else shackled.load(name)
-        assert found == json.loads(encode_scene_file(expected)), name
+        assert found == json.loads(expected.encode()), name
 
 
 def test_search_and_genesis_seeds(visit: Visit) -> None:

@@ -20,11 +20,12 @@ from node_scripts import asked, needs_web
 from pictures import local
 from shackled import load, render
 from shackled.artifacts import RENDERER
-from shackled.chain import returned_bytes
+from shackled.chain._chain import returned_bytes
 from shackled.gas import render_call
-from shackled.scene import encode_scene_file, fit, pack
 from shackled.scene._codec import extensions
-from shackled.web import asset
+from shackled.scene._in_range import in_range
+from shackled.scene._packed import pack
+from shackled.web._page import asset
 
 LOCAL, LINK = "http://127.0.0.1:8000/creator.html#1abc", "https://pictures.example/creator/#1abc"
 LOOK = {
@@ -64,7 +65,7 @@ pytestmark = needs_web
 def programs(tmp_path_factory: pytest.TempPathFactory) -> dict[str, dict[str, Any]]:
     """All programs of all cases."""
     content = {
-        "pieces": {name: json.loads(encode_scene_file(load(name))) for name in {c["piece"] for c in CASES.values()}},
+        "pieces": {name: json.loads(load(name).encode()) for name in {c["piece"] for c in CASES.values()}},
         "cases": [{"item": {}, "opened": False, "link": LOCAL, **case} for case in CASES.values()],
         "evm": base64.b64encode(asset("evm.wasm")).decode(),
         "contracts": json.loads(asset("contracts.json")),
@@ -136,7 +137,7 @@ def test_the_solidity_programs_make_the_picture(programs: dict[str, dict[str, An
         )
         kinds = signature.partition("(")[2][:-1]
         (tmp_path / "a.json").write_text(made["scene"])
-        fitted = fit(load(tmp_path / "a.json"))
+        fitted = in_range(load(tmp_path / "a.json"))
         meshes = [pack(o.mesh, smooth=o.material.shading == "smooth") for o in fitted.objects]
         arguments = encode_abi(kinds.split(","), [meshes, extensions(fitted)]) if kinds else b""
         assert bool(kinds) == (name == "given meshes")

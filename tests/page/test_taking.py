@@ -15,7 +15,7 @@ from tools.page_server import Static
 from creator_page import OBJ, Creator, Visit, drawn, scene
 from nodes import anvil, needs_anvil
 from shackled import load, render
-from shackled.scene import render_call
+from shackled.scene._codec import render_call
 
 TOWN = scene(
     "cube",

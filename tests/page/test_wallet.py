@@ -16,13 +16,15 @@ from forged_blocks import forged
 from nodes import KEY, PUBLIC, anvil, needs_anvil
 from open_sales import open_sale
 from shackled.artifacts import artifact
-from shackled.chain import VARIABLE
+from shackled.chain._address_book import VARIABLE
 from shackled.cli.app import run
-from shackled.deploy import Transactor, local_chain
+from shackled.deploy import Transactor
+from shackled.deploy._contract import local_chain
 from shackled.errors import NodeError
-from shackled.tokens import Collection, address_of
+from shackled.tokens._collection import Collection
 from shackled.tokens._contract import perform
 from shackled.tokens._icons import ALLOWED_LICENCES
+from shackled.tokens._launch import address_of
 from shackled.tokens._metadata import read_token_uri
 
 pytestmark = needs_anvil

@@ -24,15 +24,16 @@ from node_scripts import asked, needs_web
 from pictures import chain, local
 from shackled import Ground, InputError, Light, Material, Mesh, Object, Scene, Texture
 from shackled.artifacts import artifact
-from shackled.ethereum import to_hex
-from shackled.evm import Instance
-from shackled.scene import encode_scene_file, full_turn, render_call
+from shackled.ethereum._encoding import to_hex
+from shackled.evm._instance import Instance
+from shackled.scene._codec import render_call
+from shackled.scene._turning import full_turn
 from shackled.stages import draw_stages
-from shackled.studio import STUDIO, make_apng, make_glb, store_scene
-from shackled.tokens import EDITIONS, EditionTerms, add_gas
-from shackled.tokens._editions import MAX_SCALE
-from shackled.web import asset
-from shackled.web._page import make_page, page_template
+from shackled.studio import make_apng, make_glb, store_scene
+from shackled.studio._storage import STUDIO
+from shackled.tokens._collection import EDITIONS
+from shackled.tokens._editions import MAX_SCALE, EditionTerms, add_gas
+from shackled.web._page import asset, make_page, page_template
 
 SCRIPT = Path(__file__).with_name("work.ts")
 TERMS = {"name": "Tea", "price": "1000", "supply": None, "royalty": 500, "copies": 1, "model": False}
@@ -79,7 +80,7 @@ class Answers:
         codes = {each: {"address": to_hex(local().address(each)), "code": to_hex(local().code(each))} for each in MORE}
         errors = {to_hex(key): error for each in (*MORE, STUDIO) for key, error in artifact(each).errors.items()}
         (folder / "more.json").write_text(json.dumps({"contracts": codes, "errors": errors}))
-        texts = {name: encode_scene_file(scene).decode() for name, scene in SCENES.items()}
+        texts = {name: scene.encode().decode() for name, scene in SCENES.items()}
         cases = [
             {"name": name, "does": does, "text": texts.get(scene), "options": options}
             for name, (does, scene, options) in CASES.items()

@@ -22,12 +22,14 @@ from tools.cluster import cluster
 
 from nodes import Reply, serving
 from shackled import ChainError, Cluster, InputError, Scene, load
-from shackled._on import Bounds
-from shackled.chain import Drawing
+from shackled.chain._chain import Drawing
 from shackled.cli.app import run
-from shackled.parallel import Listener, _cluster, render_frames
+from shackled.parallel import Listener, _cluster
 from shackled.parallel._cluster import ClusterBackend
-from shackled.scene import Rectangle, full_turn
+from shackled.parallel._job import render_frames
+from shackled.parallel.places import How
+from shackled.scene._codec import Rectangle
+from shackled.scene._turning import full_turn
 
 Client = pytest.importorskip("distributed").Client
 SCENE = evolve(load("teapot"), width=48, height=48)
@@ -43,25 +45,25 @@ def address() -> Iterator[str]:
 
 def test_a_turntable_on_two_workers(address: str) -> None:
     frames = full_turn(SCENE, 36)
-    there, here = render_frames(frames, Cluster(address)), render_frames(frames)
+    there, here = render_frames(frames, How(Cluster(address))), render_frames(frames)
     assert there == [evolve(image, made_by=there[0].made_by) for image in here]
     assert there[0].made_by.endswith("2 workers")
 
 
 def test_tiles(address: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """Workers have our contracts, so a lie is found only if that is asked for."""
-    draw, where = ClusterBackend.render, Bounds(tile=(48, 16))
+    draw, where = ClusterBackend.render, How(Cluster(address), tile=(48, 16))
     right = render_frames([SCENE])[0].bmp
-    assert render_frames([SCENE], Cluster(address), where)[0].bmp == right
+    assert render_frames([SCENE], where)[0].bmp == right
 
     def lie(place: ClusterBackend, scene: Scene, tile: Rectangle) -> Drawing:
         piece = draw(place, scene, tile)
         return replace(piece, bmp=piece.bmp[:-1] + b"\x7f") if tile.y == 32 else piece
 
     monkeypatch.setattr(ClusterBackend, "render", lie)
-    assert render_frames([SCENE], Cluster(address), where)[0].bmp != right
+    assert render_frames([SCENE], where)[0].bmp != right
     with pytest.raises(ChainError, match=r"^the dask cluster.* wrongly for the tile of 48 x 16 .* \(0, 32\): its"):
-        render_frames([SCENE], Cluster(address, verify="all"), where)
+        render_frames([SCENE], evolve(where, on=Cluster(address, verify="all")))
 
 
 def test_a_folder_is_drawn_in_whole_inputs(address: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -161,7 +163,7 @@ def test_workers_that_are_lost(
 
 def test_what_a_worker_says_is_told(address: str) -> None:
     with pytest.raises(ChainError, match=r"gas is not enough even for a tile of .*; raise `gas_limit`"):
-        render_frames([SCENE], Cluster(address), Bounds(gas_limit=100_000))
+        render_frames([SCENE], How(Cluster(address), gas_limit=100_000))
 
 
 def test_something_else_than_a_cluster() -> None:
@@ -185,7 +187,7 @@ def test_a_cluster_that_goes_away(capfd: pytest.CaptureFixture[str]) -> None:
 
     with cluster(1) as (address, process):
         with pytest.raises(ChainError, match=r"^the cluster failed: its scheduler cannot be reached any more; is it"):
-            render_frames(full_turn(SCENE, 200), Cluster(address), listener=Breaker())
+            render_frames(full_turn(SCENE, 200), How(Cluster(address), listener=Breaker()))
         # dask is quiet about it
         assert capfd.readouterr().err == ""
 
@@ -220,4 +222,4 @@ def test_workers_that_do_not_fit(found: str | None, message: str) -> None:
 def test_without_the_package(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "distributed", None)
     with pytest.raises(InputError, match=r"pip install 'shackled\[cluster\]'"):
-        render_frames([SCENE], Cluster("tcp://127.0.0.1:1"))
+        render_frames([SCENE], How(Cluster("tcp://127.0.0.1:1")))

@@ -7,7 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from shackled.parallel._tiles import SMALLEST, area, cut, grid, halves
-from shackled.scene import Rectangle
+from shackled.scene._codec import Rectangle
 
 SIDES = st.integers(1, 300) | st.sampled_from([1024, 2047, 2048])
 

@@ -13,7 +13,8 @@ import pytest
 from attrs import evolve
 
 from shackled import OutputError, RenderError, Scene, load
-from shackled.chain import Drawing, open_chain
+from shackled.chain import open_chain
+from shackled.chain._chain import Drawing
 from shackled.errors import (
     NodeBusyError,
     NodeTimeoutError,
@@ -27,7 +28,7 @@ from shackled.parallel._backends import Backend, Part, Verifier, draw_part
 from shackled.parallel._scheduler import FAILURES, Scheduler
 from shackled.parallel._store import PartStore
 from shackled.parallel._tiles import area, cut
-from shackled.scene import Rectangle
+from shackled.scene._codec import Rectangle
 
 SIDE = 40
 SCENE = evolve(load("cube"), width=SIDE, height=SIDE)
@@ -280,7 +281,7 @@ def test_a_full_disk_ends_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) ->
         raise OSError(28, "No space left on device")
 
     store = PartStore(tmp_path / "parts", [SCENE])
-    monkeypatch.setattr("shackled.whole_file.write_whole", full)
+    monkeypatch.setattr("shackled.base.whole_file.write_whole", full)
     with pytest.raises(OutputError, match="No space left on device"):
         run([Shaky("a")], store=store)
 

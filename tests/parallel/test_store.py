@@ -8,14 +8,17 @@ import pytest
 from attrs import evolve
 
 from shackled import InputError, RenderError, Scene, load
-from shackled._on import Bounds
-from shackled.chain import Drawing, open_chain
+from shackled.chain import open_chain
+from shackled.chain._chain import Drawing
 from shackled.errors import TooLargeError
-from shackled.parallel import Listener, folder_of, remove_parts, render_frames
+from shackled.parallel import Listener
 from shackled.parallel._backends import Part, draw_part
-from shackled.parallel._store import PartStore
+from shackled.parallel._job import render_frames
+from shackled.parallel._store import PartStore, folder_of, remove_parts
 from shackled.parallel._tiles import cut
-from shackled.scene import Rectangle, full_turn
+from shackled.parallel.places import How
+from shackled.scene._codec import Rectangle
+from shackled.scene._turning import full_turn
 
 SCENE = evolve(load("cube"), width=32, height=20)
 PARTS = [Part(0, tile) for tile in cut(32, 20, 160)]
@@ -82,8 +85,9 @@ def test_a_folder_that_cannot_be(tmp_path: Path) -> None:
 @pytest.mark.parametrize("stop", [KeyboardInterrupt(), RenderError("no more")], ids=repr)
 def test_a_job_goes_on_where_it_stopped(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, stop: BaseException) -> None:
     frames = full_turn(SCENE, 5)
-    bounds, keep = Bounds(tile=(32, 7)), tmp_path / "spin.gif.parts"
-    expected = render_frames(frames, None, bounds)
+    keep = tmp_path / "spin.gif.parts"
+    how = How(tile=(32, 7), keep=keep)
+    expected = render_frames(frames, evolve(how, keep=None))
     drawn: list[Rectangle] = []
 
     def counted(chain: object, scene: Scene, tile: Rectangle) -> Drawing:
@@ -97,11 +101,11 @@ def test_a_job_goes_on_where_it_stopped(tmp_path: Path, monkeypatch: pytest.Monk
     said: list[str] = []
     resumed = False
     with pytest.raises(type(stop)):
-        render_frames(frames, None, bounds, keep=keep)
+        render_frames(frames, how)
     assert said == [f"finished parts are kept in {keep}: run the same command to resume"]
     assert len(list(keep.glob("*.part"))) == 8
     resumed = True
-    again = render_frames(frames, None, bounds, keep=keep)
+    again = render_frames(frames, how)
     assert len(drawn) == sum(image.calls for image in expected) == 15
     assert again == expected
 
@@ -120,8 +124,8 @@ def test_a_single_part_that_is_cut_later(tmp_path: Path, monkeypatch: pytest.Mon
     monkeypatch.setattr("shackled.parallel._backends.draw_part", narrow)
     monkeypatch.setattr(Listener, "warned", lambda self, text: None)
     with pytest.raises(KeyboardInterrupt):
-        render_frames([SCENE], None, Bounds(gas_limit=10**9), keep=keep)
+        render_frames([SCENE], How(gas_limit=10**9, keep=keep))
     resumed = True
-    (again,) = render_frames([SCENE], None, Bounds(gas_limit=10**9), keep=keep)
+    (again,) = render_frames([SCENE], How(gas_limit=10**9, keep=keep))
     assert again.calls == len(drawn) > 3
     assert again.bmp == open_chain().draw(SCENE).bmp

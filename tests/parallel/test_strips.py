@@ -13,15 +13,16 @@ from benchmarks.parallel import GRIDS, SIDES
 
 import shackled
 from shackled import Scene, load
-from shackled._on import Bounds, Embedded, is_one_call
-from shackled.bench import gas as gas_of
-from shackled.chain import ContractChain, open_chain
-from shackled.datasets import require
+from shackled.bench._measure import gas as gas_of
+from shackled.chain import open_chain
+from shackled.chain._chain import ContractChain
+from shackled.datasets._pieces import require
 from shackled.parallel._backends import ChainBackend
 from shackled.parallel._estimate import estimate
 from shackled.parallel._job import plan
 from shackled.parallel._tiles import grid
-from shackled.scene import Rectangle
+from shackled.parallel.places import How
+from shackled.scene._codec import Rectangle
 
 FIGURES = json.loads((Path(__file__).parents[2] / "benchmarks" / "parallel.json").read_text("utf-8"))
 
@@ -73,9 +74,9 @@ def test_no_other_number_of_strips_is_much_cheaper(teapot: Scene, chain: Contrac
 
 def test_small_pictures_are_one_call(chain: ContractChain) -> None:
     small = load("cube", size=1000)
-    assert is_one_call(Embedded(), small, Bounds())
+    assert How().is_one_call(small)
     assert heights(small, chain) == [1000]
-    assert not is_one_call(Embedded(), evolve(small, width=1024, height=1024), Bounds())
+    assert not How().is_one_call(evolve(small, width=1024, height=1024))
 
 
 def test_the_number_of_strips() -> None:

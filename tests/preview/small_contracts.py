@@ -7,8 +7,7 @@ from typing import Any
 
 from eth_abi.abi import encode
 
-from shackled.preview import Project
-from shackled.preview._project import Compiled
+from shackled.preview._project import Compiled, Project
 
 RETURN, REVERT = 0xF3, 0xFD
 #: An endless loop, and memory that costs more gas than one transaction may take.

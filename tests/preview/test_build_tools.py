@@ -12,8 +12,8 @@ import pytest
 
 from preview.small_contracts import SVG, answering, contract, output
 from shackled.errors import InputError
-from shackled.ethereum import keccak256
-from shackled.preview import CompilerError, Project
+from shackled.ethereum._encoding import keccak256
+from shackled.preview._project import CompilerError, Project
 
 Tool = Callable[[str, str], Path]
 

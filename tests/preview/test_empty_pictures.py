@@ -13,7 +13,8 @@ from PIL import Image as PillowImage
 import shackled
 from preview.small_contracts import Made, answering, contract, function, output
 from shackled.cli.app import run
-from shackled.preview import Preview, Request, Token, folded
+from shackled.preview._preview import Preview, Request, Token
+from shackled.preview._report import folded
 
 TRIANGLE = shackled.Mesh([(0, 0, 0), (100, 0, 0), (0, 100, 0)], [(0, 2, 1)])
 LINE = "the picture shows only the background: faces may be clockwise (swap two indices, or set object.flags = 0)"
@@ -67,7 +68,7 @@ def test_one_pixel_is_enough(tmp_path: Path) -> None:
 
 def test_the_command(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     made = project(tmp_path, encoded([PillowImage.new("RGB", (8, 8))], "PNG"))
-    monkeypatch.setattr("shackled.preview.Project", lambda source: made)
+    monkeypatch.setattr("shackled.preview._project.Project", lambda source: made)
     words = ["preview", str(made.source), "--check", "--tokens", "1"]
     assert run(words) == 1
     assert LINE in capsys.readouterr().out

@@ -18,13 +18,13 @@ from hypothesis import strategies as st
 from PIL import Image as PillowImage
 
 from preview.small_contracts import SVG, Made, answering, contract, function, output
+from shackled.base.local_server import Answer
 from shackled.cli.app import run
 from shackled.errors import InputError
-from shackled.local_server import Answer
-from shackled.preview import CompilerError, Preview, Project, Request
 from shackled.preview._arguments import parse_call, parse_value
 from shackled.preview._document import judge, judge_picture
-from shackled.preview._project import Compiled
+from shackled.preview._preview import Preview, Request
+from shackled.preview._project import Compiled, CompilerError, Project
 from shackled.preview._server import Live
 from shackled.preview._world import MAX_GAS, World
 

@@ -11,13 +11,14 @@ import pytest
 from preview.small_contracts import DEAR, ENDLESS, REVERT, SVG, Made, answering, contract, drawing, function, output
 from shackled import load
 from shackled.chain import open_chain
-from shackled.ethereum import keccak256, word
-from shackled.evm import Answer
-from shackled.preview import Preview, Request, Token, folded
+from shackled.ethereum._encoding import keccak256, word
+from shackled.evm._instance import Answer
 from shackled.preview._arguments import Call
+from shackled.preview._preview import Preview, Request, Token
 from shackled.preview._project import Compiled
+from shackled.preview._report import folded
 from shackled.preview._world import World, in_units
-from shackled.scene import render_call
+from shackled.scene._codec import render_call
 
 PANIC = bytes.fromhex("4e487b71")
 SUPPLY = function("totalSupply", output="uint256")

@@ -9,12 +9,13 @@ import pytest
 
 from preview.small_contracts import SVG, answering, contract, output
 from preview.test_preview import HERE, MODULES, needs_solc
-from shackled.chain import RevmChain
+from shackled.chain._embedded import RevmChain
 from shackled.cli.app import run
-from shackled.ethereum import checksum_address
+from shackled.ethereum._encoding import checksum_address
 from shackled.library import items
-from shackled.preview import Preview, Project, Request, stored_scene
-from shackled.preview._world import World
+from shackled.preview._preview import Preview, Request
+from shackled.preview._project import Project
+from shackled.preview._world import World, stored_scene
 
 
 @needs_solc

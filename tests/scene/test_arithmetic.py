@@ -10,8 +10,7 @@ import numpy as np
 import pytest
 
 from shackled.errors import InputError
-from shackled.scene import from_euler, rotate
-from shackled.scene._arithmetic import cosine, from_axis_angle, sine, tangent
+from shackled.scene._arithmetic import cosine, from_axis_angle, from_euler, rotate, sine, tangent
 
 #: Hundredths of degrees.
 ANGLES = [number / 100 for number in range(-18_000, 36_001, 9)]

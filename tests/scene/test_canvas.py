@@ -18,7 +18,8 @@ from shackled import Camera, Mesh, Scene, load, render, turntable
 from shackled.cli.app import run
 from shackled.datasets.common import shapes
 from shackled.errors import InputWarning
-from shackled.scene import as_shown, look_at
+from shackled.scene._canvas import as_shown
+from shackled.scene._look import look_at
 
 #: 16,000 triangles.
 BALL = shapes.sphere(100, 81)

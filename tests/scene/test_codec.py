@@ -14,9 +14,13 @@ from hypothesis import strategies as st
 
 from pictures import scene_types
 from shackled import Background, Camera, Fog, InputError, Light, Material, Mesh, Object, Scene
-from shackled.scene import Projection, Rectangle, encode, fit, pack, vertex_normals
-from shackled.scene._codec import ONE, extensions
+from shackled.scene import encode
+from shackled.scene._camera import Projection
+from shackled.scene._codec import ONE, Rectangle, extensions
 from shackled.scene._constants import MAX_COORDINATE
+from shackled.scene._in_range import in_range
+from shackled.scene._mesh import vertex_normals
+from shackled.scene._packed import pack
 
 SELECTOR = b"\x12\x34\x56\x78"
 TRIANGLE = Mesh([[0, 0, 0], [1000, 0, 0], [0, 1000, 0]], [[0, 1, 2]], [[1, 2, 3], [4, 5, 6], [255, 0, 128]])
@@ -38,12 +42,12 @@ def decode(data: bytes, *more: str) -> tuple[Any, ...]:
 def test_fog_of_any_distance() -> None:
     scene = Scene([Object(Mesh(np.array([[0.1, 0, 0], [1, 0, 0], [0, 1, 0.7]]), [[0, 1, 2]]))], Camera((0, 0, 5)))
     for far in (1e30, 1e300):
-        distant = fit(evolve(scene, fog=Fog("red", far / 2, far))).fog
+        distant = in_range(evolve(scene, fog=Fog("red", far / 2, far))).fog
         assert distant is not None
         assert 0 < distant.near < distant.far <= MAX_COORDINATE
     exact = scene_of(fog=Fog("red", 0.1, MAX_COORDINATE))
-    assert fit(exact).fog == exact.fog
-    assert fit(evolve(exact, fog=Fog("red", 1e-50, 1e-40))).fog == Fog("red", 1e-50, 1e-40)
+    assert in_range(exact).fog == exact.fog
+    assert in_range(evolve(exact, fog=Fog("red", 1e-50, 1e-40))).fog == Fog("red", 1e-50, 1e-40)
     assert extensions(evolve(exact, fog=Fog((1, 2, 3), 1e-50, 1e-40))) == b"\6\0\0\0\x13\1\2\3" + bytes(15) + b"\1"
 
 
@@ -90,7 +94,7 @@ def test_a_tile_outside_the_canvas(tile: tuple[int, int, int, int]) -> None:
 def test_unused_vertices_are_dropped_in_order() -> None:
     points = [[9, 9, 9], [0, 0, 0], [8, 8, 8], [5, 0, 0], [0, 5, 0]]
     mesh = Mesh(points, [[1, 4, 3]], np.arange(20).reshape(5, 4))
-    fitted = fit(scene_of(mesh)).objects[0].mesh
+    fitted = in_range(scene_of(mesh)).objects[0].mesh
     assert fitted.positions.tolist() == [[0, 0, 0], [5, 0, 0], [0, 5, 0]]
     assert fitted.faces.tolist() == [[0, 2, 1]]
     assert fitted.rgba.tolist() == mesh.rgba[[1, 3, 4]].tolist()
@@ -128,7 +132,7 @@ def test_fitting_keeps_what_the_camera_sees(
     eye = np.array([0.3, 0.2, 3]) * world
     light = Light("point", np.array([1, 2, 3]) * world)
     scene = Scene([thing], Camera(eye=eye, target=(0, 0, 0)), [light])
-    fitted = fit(scene)
+    fitted = in_range(scene)
     before, after = placed(scene), placed(fitted)
     used = np.unique(mesh.faces)
     lengths = [np.abs(np.asarray(s.lights[0].vector) - s.camera.eye).max() for s in (fitted, scene)]
@@ -163,14 +167,14 @@ def test_corners_stay_in_place_however_near_one_looks(zoom: int, bound: float, p
         distance = -points[:, 2:] if projection == "perspective" else 1.0
         return np.asarray(128 * points[:, :2] / distance / of.camera.half_height)
 
-    assert np.abs(pixels(scene) - pixels(fit(scene))).max() <= bound
+    assert np.abs(pixels(scene) - pixels(in_range(scene))).max() <= bound
 
 
 def test_a_finer_grid_is_taken_only_where_it_shows() -> None:
     mesh = Mesh([[0.1, 0.2, 0.3], [0.9, 0.2, 0.3], [0.1, 0.25, 0.3]], [[0, 1, 2]])
     for half_height, wide in ((1.0, False), (0.001, True)):
         scene = Scene([Object(mesh)], Camera(eye=(0, 0, 3), target=(0, 0, 0), half_height=half_height))
-        positions = np.abs(fit(scene).objects[0].mesh.positions)
+        positions = np.abs(in_range(scene).objects[0].mesh.positions)
         assert positions.max() > 32767 if wide else (positions[:, 0] == 32767).all()
 
 
@@ -178,7 +182,7 @@ def test_worlds_far_from_the_origin_keep_their_precision() -> None:
     mesh = Mesh(np.array([[0, 0, 0], [0.7, 0, 0], [0, 0.7, 0]]), [[0, 1, 2]])
     far = np.array([5e8, -3e8, 1e8])
     near, moved = (
-        fit(Scene([Object(mesh, offset)], Camera(eye=offset + np.array([0, 0, 4]), target=offset)))
+        in_range(Scene([Object(mesh, offset)], Camera(eye=offset + np.array([0, 0, 4]), target=offset)))
         for offset in (np.zeros(3), far)
     )
     assert np.allclose(np.asarray(near.objects[0].position), np.asarray(moved.objects[0].position), atol=1e-3)
@@ -189,7 +193,7 @@ def test_worlds_far_from_the_origin_keep_their_precision() -> None:
 def test_a_far_light_does_not_cost_the_meshes_their_precision() -> None:
     """Scaled so that a light a million times as far fits too, little would be left of what is seen."""
     alone, near, far = (
-        fit(scene_of(TRIANGLE, lights=lights)).objects[0].scale
+        in_range(scene_of(TRIANGLE, lights=lights)).objects[0].scale
         for lights in ([], *([Light("point", (distance, 0, 0))] for distance in (1e9, 1e15)))
     )
     assert near == far
@@ -198,27 +202,27 @@ def test_a_far_light_does_not_cost_the_meshes_their_precision() -> None:
 
 def test_directions_of_any_length_are_sent() -> None:
     scene = scene_of(lights=[Light("directional", (1e-200, 0, 0)), Light("directional", (0, -1e200, 0))])
-    fitted = fit(evolve(scene, objects=[evolve(scene.objects[0], rotation=(0, 0, 0, 1e-30))]))
+    fitted = in_range(evolve(scene, objects=[evolve(scene.objects[0], rotation=(0, 0, 0, 1e-30))]))
     assert [light.vector.tolist() for light in fitted.lights] == [[1, 0, 0], [0, -1, 0]]
     assert fitted.objects[0].rotation.tolist() == [0, 0, 0, 1]
 
 
 def test_the_near_plane_is_chosen_by_the_extent() -> None:
     def near(scene: Scene) -> float:
-        fitted = fit(scene)
+        fitted = in_range(scene)
         return float((fitted.camera.near or 0) / np.abs(placed(fitted)).max())
 
-    assert fit(scene_of()).camera.near == 1
+    assert in_range(scene_of()).camera.near == 1
     small = Object(Mesh([[-1, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 2]]), position=(0, 0, -3))
     assert near(Scene([small])) == pytest.approx(2**-10, rel=0.5)
     assert near(Scene([evolve(small, scale=1e-6)])) == pytest.approx(2**-10, rel=0.5)
-    assert fit(scene_of(camera=Camera(projection="orthographic", half_height=500))).camera.near == -MAX_COORDINATE
+    assert in_range(scene_of(camera=Camera(projection="orthographic", half_height=500))).camera.near == -MAX_COORDINATE
 
 
 def test_a_chosen_near_plane_is_scaled_with_the_world() -> None:
     mesh = Mesh(np.array([[0, 0, 0], [0.7, 0, 0], [0, 0.7, 0]]), [[0, 1, 2]])
     scene = Scene([Object(mesh, position=(0, 0, -4))], Camera(near=2))
-    fitted = fit(scene)
+    fitted = in_range(scene)
     assert fitted.camera.near == pytest.approx(-np.asarray(fitted.objects[0].position)[2] / 2)
 
 
@@ -233,12 +237,12 @@ def test_a_chosen_near_plane_is_scaled_with_the_world() -> None:
 )
 def test_cameras_that_see_nothing(camera: Camera, message: str) -> None:
     with pytest.raises(InputError, match=message):
-        fit(scene_of(camera=camera))
+        in_range(scene_of(camera=camera))
 
 
 def test_scenes_beyond_floats() -> None:
     with pytest.raises(InputError, match="too large"):
-        fit(scene_of(evolve(TRIANGLE, positions=1e305 * TRIANGLE.positions), camera=Camera((-1.7e308, 0, 9))))
+        in_range(scene_of(evolve(TRIANGLE, positions=1e305 * TRIANGLE.positions), camera=Camera((-1.7e308, 0, 9))))
 
 
 def test_scenes_of_extreme_sizes_are_encoded() -> None:
@@ -247,7 +251,7 @@ def test_scenes_of_extreme_sizes_are_encoded() -> None:
         for shading in ("flat", "smooth"):
             thing = Object(mesh, position=(0, 0, -3 * size), material=Material(shading))
             decode(encode(SELECTOR, Scene([thing])))
-            normals = fit(Scene([thing])).objects[0].mesh.normals
+            normals = in_range(Scene([thing])).objects[0].mesh.normals
             assert (normals is None) == (shading == "flat")
             assert normals is None or np.linalg.norm(np.asarray(normals), axis=1) == pytest.approx(1)
     for flat in ([[0.5, 0.5, 0.5]] * 3, [[7, 7, 7]] * 3):
@@ -258,7 +262,7 @@ def test_scenes_of_extreme_sizes_are_encoded() -> None:
 def test_smooth_normals_are_those_of_the_unrounded_mesh() -> None:
     rng = np.random.default_rng(1)
     mesh = Mesh(rng.normal(size=(10, 3)), rng.integers(0, 10, (30, 3)))
-    fitted = fit(Scene([Object(mesh, (0, 0, -5), material=Material("smooth"))])).objects[0].mesh
+    fitted = in_range(Scene([Object(mesh, (0, 0, -5), material=Material("smooth"))])).objects[0].mesh
     expected = vertex_normals(mesh.positions, mesh.faces)
     assert np.allclose(np.asarray(fitted.normals), expected[np.unique(mesh.faces)])
 

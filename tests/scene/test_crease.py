@@ -14,8 +14,9 @@ from numpy.typing import NDArray
 from mesh_files import sheet
 from shackled import Material, Mesh, Object, Scene, load, replace
 from shackled.datasets.common import shapes
-from shackled.scene import simplify_scene, stage
+from shackled.scene import stage
 from shackled.scene._crease import creased
+from shackled.scene._simplify import simplify_scene
 
 
 def made(mesh: trimesh.Trimesh) -> Mesh:

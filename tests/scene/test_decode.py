@@ -15,9 +15,11 @@ from random_scenes import broken_call, random_case
 from shackled import Camera, InputError, Light, Mesh, Object, RenderError, Scene
 from shackled.chain import open_chain
 from shackled.datasets import pieces
-from shackled.scene import NORMAL_UNIT, decode, fit, pack, render_call
+from shackled.scene import decode
 from shackled.scene._arithmetic import cosine
-from shackled.scene._packed import unpack
+from shackled.scene._codec import render_call
+from shackled.scene._in_range import in_range
+from shackled.scene._packed import NORMAL_UNIT, pack, unpack
 from shackled.scene._records import ANTIALIAS, FOG, OPACITY_OF, RIM, SPOT, TONE
 
 TRIANGLE = Mesh([[0, 0, 0], [1000, 0, 0], [0, 1000, 0]], [[0, 1, 2]], [[1, 2, 3], [4, 5, 6], [255, 0, 128]])
@@ -38,7 +40,7 @@ def test_what_fit_made_is_kept() -> None:
     far = Light.point((3e25, 0, 0))
     for camera in (Camera((0, 0, 1e20)), Camera((0, 0, 1e20), projection="orthographic", half_height=1e20)):
         scene = Scene([Object(TRIANGLE, scale=1e15)], camera, [far])
-        assert fit(scene).lights[0].vector.max() > 2**22
+        assert in_range(scene).lights[0].vector.max() > 2**22
         decode(render_call(scene))
 
 
@@ -99,7 +101,7 @@ def other_numbers(call: bytes, rng: np.random.Generator) -> bytes:
 
 
 def test_what_is_accepted_is_the_same_call() -> None:
-    """Scenes that `fit` would move or scale are refused: their pictures would change."""
+    """Scenes that `in_range` would move or scale are refused: their pictures would change."""
     rng, accepted, refused = np.random.default_rng(7), 0, 0
     for seed in range(120):
         call = render_call(random_case(seed).scene)

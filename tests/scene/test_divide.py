@@ -10,7 +10,10 @@ from numpy.typing import NDArray
 from mesh_files import sheet
 from shackled import Image, Material, Mesh, Object, Scene, Texture, load, render
 from shackled.datasets.common import shapes
-from shackled.scene import decode, fit, look_at, render_call
+from shackled.scene import decode
+from shackled.scene._codec import render_call
+from shackled.scene._in_range import in_range
+from shackled.scene._look import look_at
 
 MOST = 65_535
 
@@ -30,7 +33,7 @@ def corners(objects: tuple[Object, ...], name: str) -> NDArray[np.float64]:
 @pytest.mark.parametrize("mesh", [grid(300, 110), grid(300, 250), grid(40_000, 1)], ids=["faces", "both", "long"])
 def test_parts_are_the_whole(mesh: Mesh) -> None:
     thing = Object(mesh, (1, 2, 3), (0, 30, 0), 2, Material("smooth", texture=Texture(np.zeros((2, 2, 3), np.uint8))))
-    (whole,), parts = look_at(Scene([thing]), {}).objects, fit(Scene([thing])).objects
+    (whole,), parts = look_at(Scene([thing]), {}).objects, in_range(Scene([thing])).objects
     assert len(parts) == max(-(-mesh.triangles // MOST), -(-len(mesh.positions) // MOST))
     for part in parts:
         assert part.mesh.triangles <= MOST
@@ -73,9 +76,9 @@ def test_the_picture_is_that_of_the_whole(look: dict[str, object], monkeypatch: 
     scene = look_at(SOLID, {"size": (64, 64)})
     scene = load(scene, **look)  # type: ignore[arg-type]
     expected = render(scene)
-    monkeypatch.setattr("shackled.scene._fit.MAX_FACES", 11)
-    monkeypatch.setattr("shackled.scene._fit.MAX_VERTICES", 14)
-    assert len(fit(scene).objects) > 5
+    monkeypatch.setattr("shackled.scene._in_range.MAX_FACES", 11)
+    monkeypatch.setattr("shackled.scene._in_range.MAX_VERTICES", 14)
+    assert len(in_range(scene).objects) > 5
     found: Image = render(scene)
     assert expected.covered_pixels
     difference = np.abs(found.pixels.astype(int) - expected.pixels)

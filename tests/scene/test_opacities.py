@@ -16,9 +16,14 @@ from PIL import Image
 from pictures import draw
 from shackled import Camera, InputError, Light, Material, Mesh, Object, Scene, Texture, load
 from shackled.datasets.common import shapes
-from shackled.scene import MeshPart, decode, fit, objects_of, part_of, render_call, simplify, weld
-from shackled.scene._codec import extensions
+from shackled.scene import decode
+from shackled.scene._codec import extensions, render_call
 from shackled.scene._crease import creased
+from shackled.scene._files.model import MeshPart
+from shackled.scene._from_trimesh import objects_of, part_of
+from shackled.scene._in_range import in_range
+from shackled.scene._mesh import weld
+from shackled.scene._simplify import simplify
 
 CORNERS = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
 FACES = [[0, 1, 2], [0, 2, 3]]
@@ -38,7 +43,7 @@ def scene_of(*objects: Object, **changes: Any) -> Scene:
 
 
 def pixels(scene: Scene) -> NDArray[np.int64]:
-    return draw(fit(scene)).astype(int)
+    return draw(in_range(scene)).astype(int)
 
 
 def test_they_are_multiples_of_a_255th() -> None:

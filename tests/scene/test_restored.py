@@ -31,10 +31,12 @@ from shackled import (
     render,
 )
 from shackled.errors import InputError
-from shackled.scene import Hemisphere, Projection, decode, read_scene, render_call
+from shackled.scene import Hemisphere, decode
+from shackled.scene._camera import Projection
+from shackled.scene._codec import render_call
 from shackled.scene._constants import MAX_COORDINATE
 from shackled.scene._fields import SHADINGS, Shading
-from shackled.scene._fit import _factor, _is_exact, _prepared
+from shackled.scene._in_range import _factor, _is_exact, _prepared
 from shackled.scene._texture import FILTERS, WRAPS
 
 Floats = NDArray[np.float64]
@@ -290,12 +292,12 @@ def test_from_scene_files(tmp_path: Path) -> None:
     for seed in range(150):
         for scene in (whole(seed), random_case(seed).scene):
             scene.save(path)
-            found = read_scene(path)
+            found = load(path)
             assert found == scene
             # also with what only a decoded scene has
             decoded = decode(render_call(scene))
             decoded.save(path)
-            assert read_scene(path) == decoded
+            assert load(path) == decoded
 
 
 def test_a_ground_from_a_picture_is_a_ground(tmp_path: Path) -> None:

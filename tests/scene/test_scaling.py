@@ -13,9 +13,12 @@ from attrs import evolve
 
 from shackled import Light, Material, Mesh, Object, Scene, Texture, load
 from shackled.datasets.common import shapes
-from shackled.scene import decode, encode_scene_file, full_turn, render_call, simplify_scene
+from shackled.scene import decode
+from shackled.scene._codec import render_call
 from shackled.scene._crease import creased
 from shackled.scene._mesh import components
+from shackled.scene._simplify import simplify_scene
+from shackled.scene._turning import full_turn
 
 #: How many times as much is asked for, and how many times as many calls that may take, which is 64 where each object
 #: looks at all others.
@@ -70,7 +73,7 @@ WORK: dict[str, Callable[[Scene], object]] = {
     "encode": render_call,
     "decode": lambda scene: decode(render_call(scene)),
     "look": lambda scene: load(scene, azimuth=3, fog="red", shadow=True, crease=30),
-    "scene file": encode_scene_file,
+    "scene file": Scene.encode,
     "turn": lambda scene: full_turn(scene, 3),
     "simplify": lambda scene: simplify_scene(scene, 8),
 }

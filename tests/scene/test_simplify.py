@@ -5,8 +5,9 @@ from attrs import evolve
 from shackled.datasets import teapot
 from shackled.datasets.common import shapes
 from shackled.errors import InputError
-from shackled.scene import Mesh, is_closed, simplify
-from shackled.scene._staging import signed_volume
+from shackled.scene._mesh import Mesh
+from shackled.scene._simplify import simplify
+from shackled.scene._staging import is_closed, signed_volume
 
 
 def sphere() -> Mesh:

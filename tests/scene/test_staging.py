@@ -5,8 +5,12 @@ from pictures import projected
 from shackled import load
 from shackled.datasets.common import shapes
 from shackled.errors import InputError
-from shackled.scene import Light, Material, Mesh, Scene, is_closed, painted, stage
-from shackled.scene._staging import signed_volume
+from shackled.scene import stage
+from shackled.scene._light import Light
+from shackled.scene._mesh import Mesh
+from shackled.scene._object import Material
+from shackled.scene._scene import Scene
+from shackled.scene._staging import is_closed, painted, signed_volume
 
 CORNERS = np.sign(shapes.cube().positions)
 FACES = shapes.cube().faces.tolist()

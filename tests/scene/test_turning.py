@@ -9,8 +9,8 @@ from attrs import evolve
 from pictures import projected
 from shackled import Camera, InputError, Light, Object, Scene
 from shackled.datasets.common import shapes
-from shackled.scene import from_euler, full_turn, rotate
-from shackled.scene._turning import FILLED, middle
+from shackled.scene._arithmetic import from_euler, rotate
+from shackled.scene._turning import FILLED, full_turn, middle
 
 #: A bar that points at the viewer: turned, it is much wider.
 BAR = evolve(shapes.cube(), positions=np.sign(shapes.cube().positions) * (0.1, 0.1, 2))

@@ -13,7 +13,8 @@ from benchmarks import shared
 
 from shackled import InputError, Scene, load
 from shackled.datasets import pieces
-from shackled.scene import base_axis, faces_of_all, read_scene
+from shackled.scene._mesh import faces_of_all
+from shackled.scene._upright import base_axis
 
 #: A pyramid with its tip along z, and the same as glTF has it.
 ALONG_Z = trimesh.Trimesh([(-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0), (0, 0, 3)])
@@ -106,7 +107,7 @@ def test_a_direction_of_a_model_is_its_upper_side() -> None:
 def test_scene_files() -> None:
     def place(keys: str) -> list[float]:
         Path("scene.toml").write_text(f"[[objects]]\nmesh = {keys}\n")
-        (found,) = read_scene("scene.toml").objects
+        (found,) = load("scene.toml").objects
         points = found.world_positions()
         return [*(np.median(points, axis=0) - points[found.mesh.positions.max(axis=1).argmax()]).round(6).tolist()]
 

@@ -12,8 +12,7 @@ import trimesh
 from shackled import Mesh, Object, load
 from shackled.datasets.common.shapes import joined
 from shackled.errors import InputWarning
-from shackled.scene import is_closed
-from shackled.scene._staging import signed_volume
+from shackled.scene._staging import is_closed, signed_volume
 
 BALL = trimesh.creation.icosphere(subdivisions=2)
 SHEET = np.array([[-2, -2, -2], [-2, -2, 2], [2, -2, 2], [2, -2, -2]], dtype=float)

@@ -5,27 +5,27 @@ from __future__ import annotations
 import pytest
 from attrs import evolve
 from eth_abi.abi import encode
-from tools import presets
 
 from compiler import needs_compiler
 from probes import SCENE_STRUCT, Probe
 from shackled import load
 from shackled.artifacts import artifact
-from shackled.scene import PRESETS, Scene, checked_look, fit, look_at, pack
+from shackled.scene import PRESETS
 from shackled.scene._decode import read_call
+from shackled.scene._in_range import in_range
+from shackled.scene._look import look_at
+from shackled.scene._packed import pack
+from shackled.scene._scene import Scene
+from shackled.scene._settings import checked_look
 
 #: Of cosines and of coefficients, in Q32, after two roundings.
 NEAR = 2**-28
 
 
-def test_the_file_is_written_from_the_table() -> None:
-    assert presets.FILE.read_text("utf-8") == presets.source(), "run python tools/presets.py"
-
-
 @needs_compiler
 @pytest.mark.parametrize(("piece", "toward"), [("icosphere", (1, 1, 3)), ("cube", (-4, 0, 1)), ("cube", (0, 1, 0))])
 def test_each_is_that_of_python(piece: str, toward: tuple[int, int, int]) -> None:
-    mesh = fit(load(piece, shading="smooth" if piece == "icosphere" else "flat")).objects[0].mesh
+    mesh = in_range(load(piece, shading="smooth" if piece == "icosphere" else "flat")).objects[0].mesh
     smooth = mesh.normals is not None
     data = pack(mesh, smooth), smooth, toward
     (scenes,) = Probe("tests/studio/PresetProbe.sol").ask([f"{SCENE_STRUCT}[]"], "all(bytes,bool,int256[3])", *data)

@@ -13,9 +13,10 @@ from tools.ledger import call_data
 
 from pictures import chain
 from shackled import ChainError, InputError, Mesh, RenderError, load
-from shackled.chain import EmbeddedChain
+from shackled.chain._embedded import EmbeddedChain
 from shackled.datasets import teapot
-from shackled.scene import fit, pack
+from shackled.scene._in_range import in_range
+from shackled.scene._packed import pack
 from shackled.studio._compact_mesh import COMPACT, compact, split_mesh
 from shackled.studio._storage import storage_address
 
@@ -77,7 +78,7 @@ def test_normals_of_fewer_bits(normal_bits: int) -> None:
 
 @pytest.mark.parametrize("name", ["icons/crown", "teapot", "torus-knot"])
 def test_surfaces_become_small(name: str) -> None:
-    for o in fit(load(name)).objects:
+    for o in in_range(load(name)).objects:
         packed = pack(o.mesh, o.material.shading == "smooth")
         stored = compact(packed)
         assert content(opened(stored)) == content(packed)

@@ -17,7 +17,7 @@ from nodes import anvil, needs_anvil
 from shackled import InputError, Nodes, Processes, load
 from shackled.artifacts import artifact
 from shackled.cli.app import run
-from shackled.deploy import local_chain
+from shackled.deploy._contract import local_chain
 from shackled.scene import encode
 from shackled.studio import make_apng, make_glb
 

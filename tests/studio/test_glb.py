@@ -24,9 +24,12 @@ import gltf_reader
 from shackled import Camera, Light, Material, Mesh, Object, RenderError, Scene, load
 from shackled.artifacts import artifact
 from shackled.datasets import pieces, teapot
-from shackled.deploy import local_chain
-from shackled.ethereum import word
-from shackled.scene import encode_scene, fit, from_euler, pack
+from shackled.deploy._contract import local_chain
+from shackled.ethereum._encoding import word
+from shackled.scene._arithmetic import from_euler
+from shackled.scene._codec import encode_scene
+from shackled.scene._in_range import in_range
+from shackled.scene._packed import pack
 from shackled.studio import store_scene
 from shackled.studio._compact_mesh import compact
 from shackled.studio._storage import scene_struct, store_mesh
@@ -53,7 +56,7 @@ SCENE = Scene(
 
 
 def call(scene: Scene, function: str = "encode") -> bytes:
-    return answer(artifact("GlbEncoder").selectors[function] + word(32) + encode_scene(fit(scene)))
+    return answer(artifact("GlbEncoder").selectors[function] + word(32) + encode_scene(in_range(scene)))
 
 
 def answer(data: bytes) -> bytes:
@@ -80,7 +83,7 @@ def packed_normals(mesh: Mesh) -> NDArray[np.float64]:
 def compare(glb: bytes, scene: Scene, fitted: bool = False) -> None:
     """What a plain reader finds is the scene; the normals are those that the renderer has."""
     document, binary = gltf_reader.split(glb)
-    objects = (scene if fitted else fit(scene)).objects
+    objects = (scene if fitted else in_range(scene)).objects
     assert struct.unpack_from("<4sII", glb) == (b"glTF", 2, len(glb))
     assert document["asset"] == {"version": "2.0", "generator": "Shackled"}
     assert (document["scene"], document["scenes"]) == (0, [{"nodes": list(range(len(objects)))}])
@@ -182,7 +185,7 @@ def test_readers_see_the_scene(tmp_path: Path) -> None:
     import trimesh
 
     lit = evolve(SCENE, objects=SCENE.objects[:3])
-    places = np.concatenate([o.world_positions() for o in fit(lit).objects])
+    places = np.concatenate([o.world_positions() for o in in_range(lit).objects])
     model_ = trimesh.load_scene(io.BytesIO(call(lit)), file_type="glb")
     assert len(model_.geometry) == 3
     assert model_.bounds == pytest.approx(np.array([places.min(0), places.max(0)]), rel=1e-5)
@@ -224,7 +227,7 @@ def test_the_studio_models_what_it_keeps(tmp_path: Path) -> None:
 def changed(change: Any) -> bytes:
     """Data of a call with other objects."""
     kind = scene_struct()
-    (values,) = decode([kind], word(32) + encode_scene(fit(evolve(SCENE, objects=[SCENE.objects[1]]))))
+    (values,) = decode([kind], word(32) + encode_scene(in_range(evolve(SCENE, objects=[SCENE.objects[1]]))))
     *others, objects, extensions = values
     return call_data(f"encode({kind})", (*others, [change(objects[0])], extensions))
 
@@ -250,11 +253,11 @@ def test_objects_without_faces_are_left_out(tmp_path: Path) -> None:
     """Opacities stay with their objects."""
     kind = scene_struct()
     scene = evolve(SCENE, objects=[SCENE.objects[at] for at in (2, 1, 0, 1)], lights=[])
-    (values,) = decode([kind], word(32) + encode_scene(fit(scene)))
+    (values,) = decode([kind], word(32) + encode_scene(in_range(scene)))
     objects = list(values[6])
     objects[0], objects[1] = (b"\0\0\1\0\0" + bytes(9), *objects[0][1:]), (bytes(5), *objects[1][1:])
     glb = answer(call_data(f"encode({kind})", (*values[:6], objects, values[7])))
-    compare(glb, evolve(fit(scene), objects=fit(scene).objects[2:]), fitted=True)
+    compare(glb, evolve(in_range(scene), objects=in_range(scene).objects[2:]), fitted=True)
     assert_valid([glb], tmp_path)
 
 

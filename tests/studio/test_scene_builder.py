@@ -13,12 +13,11 @@ from compiler import needs_compiler
 from probes import SCENE_STRUCT, Probe
 from shackled import Mesh, RenderError, Texture
 from shackled.artifacts import artifact
-from shackled.ethereum import keccak256
+from shackled.ethereum._encoding import keccak256
 from shackled.image import decode_bmp
-from shackled.scene import is_closed, pack
 from shackled.scene._decode import read_call
-from shackled.scene._packed import pack_texture, unpack
-from shackled.scene._staging import Viewpoint, frame
+from shackled.scene._packed import pack, pack_texture, unpack
+from shackled.scene._staging import Viewpoint, frame, is_closed
 from shackled.studio._compact_mesh import split_mesh
 
 ONE = 1 << 32

@@ -14,8 +14,9 @@ from tools.ledger import call_data
 from compiler import needs_compiler
 from probes import Probe
 from shackled import Mesh, RenderError
-from shackled.scene import NORMAL_UNIT, is_closed, vertex_normals
-from shackled.scene._packed import unpack
+from shackled.scene._mesh import vertex_normals
+from shackled.scene._packed import NORMAL_UNIT, unpack
+from shackled.scene._staging import is_closed
 
 CENTER = np.array([10, 20, 30])
 SPHERE, CYLINDER, CONE, RING = range(4)
@@ -240,10 +241,6 @@ def test_what_is_refused(
 def lettered(probe: ShapesProbe, text: str, height: int = 112) -> tuple[Mesh, int]:
     packed, width = probe.ask(["bytes", "int256"], TEXT, text, height, 20)
     return unpack(packed), width
-
-
-def test_letters_are_drawn_as_they_should_be() -> None:
-    assert lettering.FILE.read_text("utf-8") == lettering.source(), "run python tools/lettering.py"
 
 
 def test_every_stroke_of_every_letter_is_closed(probe: ShapesProbe) -> None:

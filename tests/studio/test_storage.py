@@ -19,18 +19,23 @@ from shackled import InputError, Mesh, Object, Scene, load, render
 from shackled.chain import Connection
 from shackled.datasets import teapot
 from shackled.errors import RenderError, VerificationError
-from shackled.ethereum import intrinsic_gas
-from shackled.scene import fit, from_euler, pack, rotate, stage
-from shackled.studio import StoreTransaction, store_scene, stored_codes
+from shackled.ethereum._encoding import intrinsic_gas
+from shackled.scene import stage
+from shackled.scene._arithmetic import from_euler, rotate
+from shackled.scene._in_range import in_range
+from shackled.scene._packed import pack
+from shackled.studio import store_scene
 from shackled.studio._compact_mesh import compact, split_mesh
 from shackled.studio._storage import (
     SCENE,
+    StoreTransaction,
     compress_zeros,
     encode_with_pointers,
     expand_zeros,
     quantize,
     storage_address,
     store_mesh,
+    stored_codes,
     stored_meshes,
 )
 
@@ -161,7 +166,7 @@ class Store:
 
     def scene(self, meshes: list[bytes]) -> bytes:
         mesh = Mesh([(0, 0, 0), (1, 0, 0), (0, 1, 0)], [(0, 1, 2)])
-        scene = fit(Scene([Object(mesh, (0, 0, -5))] * len(meshes)))
+        scene = in_range(Scene([Object(mesh, (0, 0, -5))] * len(meshes)))
         return self.put(bytes([SCENE]) + compress_zeros((32).to_bytes(32, "big") + encode_with_pointers(scene, meshes)))
 
     def read(self, pointer: bytes) -> dict[bytes, bytes]:

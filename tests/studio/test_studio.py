@@ -18,9 +18,9 @@ from tools.ledger import World, call_data
 from shackled import Background, Camera, ChainError, Light, Material, Mesh, Object, RenderError, Scene, Texture, render
 from shackled.artifacts import artifact
 from shackled.datasets import teapot
-from shackled.ethereum import word
+from shackled.ethereum._encoding import word
 from shackled.image import decode_bmp
-from shackled.scene import from_euler
+from shackled.scene._arithmetic import from_euler
 from shackled.scene._object import Shading
 from stored_scenes import CHANGES, SCENE_STRUCT, changes, frames_of, kept, stored, struct_of, turned
 

@@ -19,9 +19,12 @@ from tools.png_code import SIGNATURE, encode_png
 from shackled import Background, Camera, Light, Material, Mesh, Object, RenderError, Scene, render
 from shackled.artifacts import artifact
 from shackled.chain import open_chain
-from shackled.ethereum import word
+from shackled.ethereum._encoding import word
 from shackled.image import decode_bmp
-from shackled.scene import encode_scene, fit, from_euler, pack
+from shackled.scene._arithmetic import from_euler
+from shackled.scene._codec import encode_scene
+from shackled.scene._in_range import in_range
+from shackled.scene._packed import pack
 from stored_scenes import CHANGES, SCENE_STRUCT, Pixels, changes, frames_of, stored, turned
 
 SPIN = "(uint256,uint256,uint256,(int256,int256,int256),bool)"
@@ -47,7 +50,7 @@ def data_of(
 ) -> bytes:
     """Data of a call of `animate`."""
     values = encode([SPIN], [(frames, delay, scale, axis, hold)])
-    return artifact("Turntable").selectors["animate"] + word(256) + values + encode_scene(fit(scene))
+    return artifact("Turntable").selectors["animate"] + word(256) + values + encode_scene(in_range(scene))
 
 
 def animate(scene: Scene, **spin: Any) -> bytes:
@@ -206,7 +209,7 @@ def test_what_is_refused(spin: dict[str, Any], error: str) -> None:
 )
 def test_a_scene_that_cannot_be_drawn_is_refused(change: Any, error: str, hold: bool) -> None:
     """With the error of the renderer, whatever is computed before."""
-    (struct_,) = decode([SCENE_STRUCT], word(32) + encode_scene(fit(SCENE)))
+    (struct_,) = decode([SCENE_STRUCT], word(32) + encode_scene(in_range(SCENE)))
     data = call_data(f"animate({SCENE_STRUCT},{SPIN})", change(struct_), (2, 50, 1, UPRIGHT, hold))
     with pytest.raises(RenderError) as caught:
         open_chain().call("Turntable", data)

@@ -8,7 +8,7 @@ import pytest
 from tools.ledger import World
 
 from shackled import Mesh, RenderError
-from shackled.scene import pack
+from shackled.scene._packed import pack
 from shackled.studio._compact_mesh import compact
 from shackled.studio._storage import scene_struct
 

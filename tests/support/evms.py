@@ -12,8 +12,9 @@ import pytest
 import wasmtime
 
 from shackled.chain._embedded import SENDER, PyEvmChain
-from shackled.ethereum import intrinsic_gas, to_hex
-from shackled.evm import Answer, Instance, Status, _compiled
+from shackled.ethereum._encoding import intrinsic_gas, to_hex
+from shackled.evm import _compiled
+from shackled.evm._instance import Answer, Instance, Status
 
 #: Where code under test is put.
 ADDRESS = bytes(18) + b"\xc0\xde"

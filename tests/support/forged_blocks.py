@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from shackled.ethereum import encode_header, keccak256, to_hex
+from shackled.ethereum._encoding import encode_header, keccak256, to_hex
 
 
 def forged(block: dict[str, Any], **changes: str) -> dict[str, Any]:

@@ -30,13 +30,16 @@ from pictures import chain
 from random_scenes import KINDS, random_case
 from shackled import Scene
 from shackled.artifacts import artifact
-from shackled.chain import EmbeddedChain
-from shackled.datasets import require
+from shackled.chain._embedded import EmbeddedChain
+from shackled.datasets._pieces import require
 from shackled.datasets.genesis import seed_of
 from shackled.errors import ChainError
 from shackled.image import encode_bmp
-from shackled.scene import Rectangle, encode, resize
-from shackled.studio import ANIMATE, store_scene
+from shackled.scene import encode
+from shackled.scene._codec import Rectangle
+from shackled.scene._look import resize
+from shackled.studio import store_scene
+from shackled.studio._storage import ANIMATE
 
 FILE = Path(__file__).with_name("golden.json")
 

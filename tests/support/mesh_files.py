@@ -17,7 +17,9 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from shackled.errors import InputError
-from shackled.scene import Mesh, read_mesh, read_model
+from shackled.scene import read_mesh
+from shackled.scene._files.mesh_file import read_model
+from shackled.scene._mesh import Mesh
 
 #: The codes of kinds of numbers in glTF, and the types by how many of them there are.
 CODES = {"i1": 5120, "u1": 5121, "i2": 5122, "u2": 5123, "u4": 5125, "f4": 5126}

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from shackled.chain import Connection
 from shackled.deploy import Transactor
-from shackled.ethereum import checksum_address
-from shackled.tokens import KINDS, Collection, CollectionTerms, launch, plan_launch
+from shackled.ethereum._encoding import checksum_address
+from shackled.tokens._collection import KINDS, Collection
 from shackled.tokens._contract import perform
 from shackled.tokens._demo import development_accounts
+from shackled.tokens._launch import CollectionTerms, launch, plan_launch
 
 
 def open_sale(connection: Connection, mints: int = 1) -> tuple[Transactor, Collection]:

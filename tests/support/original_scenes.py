@@ -21,7 +21,7 @@ from benchmarks.original.recipe import MODEL_LIGHT
 
 from shackled import Mesh
 from shackled.bench import scenes
-from shackled.datasets import require
+from shackled.datasets._pieces import require
 
 __all__ = [
     "LIGHT",

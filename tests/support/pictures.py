@@ -11,9 +11,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from shackled import Camera, Material, Mesh, Object, Scene
 from shackled.artifacts import artifact
-from shackled.chain import CallResult, ContractChain, EmbeddedChain, open_chain
+from shackled.chain import open_chain
+from shackled.chain._chain import CallResult, ContractChain
+from shackled.chain._embedded import EmbeddedChain
 from shackled.image import decode_bmp
-from shackled.scene import Rectangle, encode_scene
+from shackled.scene._codec import Rectangle, encode_scene
 
 Pixels = NDArray[np.uint8]
 

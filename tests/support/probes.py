@@ -8,7 +8,7 @@ from eth_abi.abi import decode
 from tools.examples import compile_example
 from tools.ledger import World, call_data
 
-from shackled.scene import Mesh
+from shackled.scene._mesh import Mesh
 from shackled.scene._packed import unpack
 from shackled.studio._storage import scene_struct
 

@@ -20,7 +20,11 @@ from pictures import call_data
 from shackled import Background, Camera, Fog, Light, Material, Mesh, Object, Rim, Scene, Texture, Tone, load
 from shackled.datasets import pieces
 from shackled.datasets.common import shapes
-from shackled.scene import Hemisphere, Rectangle, fit, rotate, vertex_normals
+from shackled.scene import Hemisphere
+from shackled.scene._arithmetic import rotate
+from shackled.scene._codec import Rectangle
+from shackled.scene._in_range import in_range
+from shackled.scene._mesh import vertex_normals
 from shackled.scene._object import Shading
 from shackled.scene._staging import signed_volume
 from shackled.scene._texture import FILTERS, WRAPS
@@ -74,7 +78,7 @@ def random_case(seed: int, kind: str | None = None) -> Case:
     tile = Rectangle(x, y, int(rng.integers(1, width - x + 1)), int(rng.integers(1, height - y + 1)))
     for drawn in islice(_scenes(name, seed), TRIALS if kind else 1):
         scene = evolve(drawn, width=width, height=height)
-        scene = _in_range(scene) if kind == "wild" else fit(scene)
+        scene = _in_range(scene) if kind == "wild" else in_range(scene)
         if is_anything_seen(scene):
             break
     return Case(scene, tile)

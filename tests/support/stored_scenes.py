@@ -14,8 +14,7 @@ from PIL import ImageSequence
 from tools.ledger import World, call_data
 
 from shackled import Scene
-from shackled.scene import rotate
-from shackled.scene._arithmetic import multiply
+from shackled.scene._arithmetic import multiply, rotate
 from shackled.studio import store_scene
 from shackled.studio._storage import scene_struct
 

@@ -10,13 +10,13 @@ import pytest
 
 from commands import Said, Shackled
 from nodes import Node
-from shackled.chain import VARIABLE, AddressBook
+from shackled.chain._address_book import VARIABLE, AddressBook
 from shackled.cli.app import run
-from shackled.ethereum import checksum_address
+from shackled.ethereum._encoding import checksum_address
 from shackled.tokens._demo import development_accounts
 
 if TYPE_CHECKING:
-    from tools.tokens.stage import Stage
+    from tools.tokens.launched import Launched
 
 
 @pytest.fixture(scope="module")
@@ -69,8 +69,8 @@ def shackled(node: Node, users: list[str], capsys: pytest.CaptureFixture[str]) -
 
 
 @pytest.fixture
-def s() -> Stage:
+def s() -> Launched:
     """The collections in a world of their own, as they are deployed."""
-    from tools.tokens.stage import stage
+    from tools.tokens.launched import launched
 
-    return stage()
+    return launched()

@@ -14,7 +14,7 @@ pytest.importorskip("pyrevm", reason="a chain with state needs it")
 from eth_abi.abi import encode
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
-from tools.tokens.stage import LIMIT, Stage, icon_scene, stage, store_scene
+from tools.tokens.launched import LIMIT, Launched, icon_scene, launched, store_scene
 from tools.tokens.world import GAS, Contract, keccak
 
 from token_checks import document, refused, traits
@@ -29,7 +29,7 @@ class Shop:
     terms: of one token, after name, scene and scale. kinds: types of the scale and of these.
     """
 
-    s: Stage
+    s: Launched
     contract: Contract
     scene: str
     kinds: str
@@ -51,7 +51,7 @@ class Shop:
 
 @pytest.fixture(scope="module", params=["IconsCollection", "Editions"])
 def shop(request: pytest.FixtureRequest) -> Shop:
-    s = stage()
+    s = launched()
     tiny = store_scene(s.studio, evolve(icon_scene("icons/lightning"), width=8, height=8))
     if request.param == "Editions":
         kinds, terms = "uint8,bool,uint96,uint32,uint16,uint32", (False, 0, 1, 0, 1)
@@ -177,6 +177,6 @@ def test_what_cannot_be_drawn_is_refused(shop: Shop) -> None:
     ("name", "more"), [("IconsCollection", [("0x" + "11" * 20, LIMIT, NOBODY, 500)]), ("Editions", [])]
 )
 def test_a_collection_needs_a_studio(name: str, more: list[Any]) -> None:
-    s = stage()
+    s = launched()
     with refused("NoStudio", s.alice):
         s.world.deploy(name, s.alice, *more)

@@ -12,8 +12,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from shackled.errors import InputError
-from shackled.tokens import read_allow_list, read_allowance
-from shackled.tokens._allow_list import hash_pair, leaf_of, make_allow_list
+from shackled.tokens._allow_list import hash_pair, leaf_of, make_allow_list, read_allow_list
+from shackled.tokens._minting import read_allowance
 
 ALICE = "0x70997970C51812dc3A010C7d01b50e0d17dc79C8"
 BOB = "0x3C44CdDdB6a900fa2b585dd299e03d12FA4293BC"

@@ -13,12 +13,16 @@ from web3 import Web3
 from commands import Shackled
 from nodes import Node, Reply, failure, replying, serving
 from shackled.artifacts import artifact
-from shackled.chain import AddressBook, Connection
+from shackled.chain import Connection
+from shackled.chain._address_book import AddressBook
 from shackled.cli.app import run
-from shackled.deploy import local_chain
+from shackled.deploy._contract import local_chain
 from shackled.errors import ChainError, NodeError
-from shackled.tokens import Contract, check_collection_code, check_token, open_collection, read_allow_list
+from shackled.tokens import open_collection
+from shackled.tokens._allow_list import read_allow_list
+from shackled.tokens._contract import Contract
 from shackled.tokens._launch import immutable_places
+from shackled.tokens._verify import check_collection_code, check_token
 from stored_scenes import frames_of
 
 OWNER, ALICE, BOB = range(3)

@@ -10,7 +10,7 @@ import pytest
 from commands import Shackled
 from nodes import Node, anvil, needs_anvil
 from shackled.cli.app import run
-from shackled.tokens import read_data_uri
+from shackled.tokens._metadata import read_data_uri
 from token_checks import document, traits
 
 

@@ -14,12 +14,12 @@ pytest.importorskip("pyrevm", reason="a chain with state needs it")
 import copy
 
 import numpy as np
-from tools.tokens.stage import Stage, icon_scene, stage, store_scene
+from tools.tokens.launched import Launched, icon_scene, launched, store_scene
 from tools.tokens.world import ETHER, GAS, ZERO, Contract, Receipt, Refused, World
 
 from adversaries import adversary
 from shackled import render
-from shackled.tokens import read_data_uri
+from shackled.tokens._metadata import read_data_uri
 from token_checks import document, execute, pixels, refused, traits
 
 OPEN = 2**32 - 1
@@ -31,7 +31,7 @@ NOBODY = "0x" + "12" * 20
 class Show:
     """A collection with one edition by alice: 8 x 8 pixels, 5 tokens, 5 % royalties, no copies."""
 
-    s: Stage
+    s: Launched
     editions: Contract
     scene: str
 
@@ -62,7 +62,7 @@ class Show:
 
 @cache
 def _shown() -> Show:
-    s = stage()
+    s = launched()
     tiny = store_scene(s.studio, evolve(icon_scene("icons/lightning"), width=8, height=8))
     show = Show(s, s.world.deploy("Editions", s.studio), tiny)
     show.add()

@@ -20,9 +20,11 @@ from shackled.artifacts import artifact
 from shackled.chain import Connection
 from shackled.cli.app import run
 from shackled.errors import InputError, NodeError
-from shackled.ethereum import to_hex
-from shackled.tokens import EDITIONS, OPEN, Collection, EditionTerms, address_of, editions_of
-from shackled.tokens._launch import parts_of
+from shackled.ethereum._encoding import to_hex
+from shackled.tokens import editions_of
+from shackled.tokens._collection import EDITIONS, Collection
+from shackled.tokens._editions import OPEN, EditionTerms
+from shackled.tokens._launch import address_of, parts_of
 
 ROOT = Path(__file__).resolve().parents[2]
 OWNER, ALICE, BOB = range(3)

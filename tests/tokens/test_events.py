@@ -7,8 +7,9 @@ from typing import Any
 import pytest
 
 from shackled.errors import VerificationError
-from shackled.ethereum import keccak256, to_hex, word
-from shackled.tokens import added_number, minted_tokens, withdrawn
+from shackled.ethereum._encoding import keccak256, to_hex, word
+from shackled.tokens._contract import minted_tokens, withdrawn
+from shackled.tokens._editions import added_number
 
 HERE, ELSEWHERE = "0x" + "aB" * 20, "0x" + "cd" * 20
 ADDED = "EditionAdded(uint256,address,address,string,uint256,bool,uint256,uint256,uint256)"

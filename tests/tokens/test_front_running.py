@@ -7,12 +7,14 @@ from pathlib import Path
 import pytest
 
 from nodes import Node
-from shackled.chain import VARIABLE, AddressBook
+from shackled.chain._address_book import VARIABLE, AddressBook
 from shackled.cli.app import run
 from shackled.deploy import Transactor
-from shackled.ethereum import checksum_address
-from shackled.tokens import KINDS, Collection, CollectionTerms, icons_of, launch, plan_launch
+from shackled.ethereum._encoding import checksum_address
+from shackled.tokens._collection import KINDS, Collection
 from shackled.tokens._demo import development_accounts
+from shackled.tokens._icons import icons_of
+from shackled.tokens._launch import CollectionTerms, launch, plan_launch
 
 KIND = KINDS["icons"]
 Pair = tuple[Transactor, Transactor, CollectionTerms]

@@ -12,9 +12,9 @@ from web3.exceptions import ContractCustomError
 from commands import Shackled
 from nodes import Node
 from shackled.datasets.genesis import generate_on_chain, picture_on_chain
-from shackled.ethereum import intrinsic_gas
-from shackled.tokens import read_data_uri
+from shackled.ethereum._encoding import intrinsic_gas
 from shackled.tokens._launch import parts_of
+from shackled.tokens._metadata import read_data_uri
 from stored_scenes import frames_of
 from token_checks import document
 

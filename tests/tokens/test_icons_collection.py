@@ -12,8 +12,8 @@ pytest.importorskip("pyrevm", reason="a chain with state needs it")
 
 import numpy as np
 from PIL import Image as PillowImage
+from tools.tokens.launched import ALLOW_LIST, CLOSED, ICONS, LIMIT, PUBLIC, Launched, icon_scene
 from tools.tokens.merkle import leaf
-from tools.tokens.stage import ALLOW_LIST, CLOSED, ICONS, LIMIT, PUBLIC, Stage, icon_scene
 from tools.tokens.world import ETHER, ZERO, Contract, Refused
 
 from adversaries import adversary
@@ -25,16 +25,16 @@ from token_checks import INDEPENDENT, document, pixels, refused, traits
 PRICES = [price for _, _, _, price in ICONS.values()]
 
 
-def fresh(s: Stage) -> Contract:
+def fresh(s: Launched) -> Contract:
     """A collection without icons."""
     return s.world.deploy("IconsCollection", s.studio, (s.owner, LIMIT, s.owner, 500), sender=s.owner)
 
 
-def pointer(s: Stage) -> str:
+def pointer(s: Launched) -> str:
     return str(s.icons.call("iconAt", 0)[1])
 
 
-def test_each_icon_has_its_own_supply(s: Stage) -> None:
+def test_each_icon_has_its_own_supply(s: Launched) -> None:
     s.icons.send("mint", 0, 10, sender=s.alice, value=10 * PRICES[0])
     assert s.icons.call("left", 0) == 0
     with refused("NothingLeft", 1, 0):
@@ -48,7 +48,7 @@ def test_each_icon_has_its_own_supply(s: Stage) -> None:
     assert [s.icons.call("iconOf", token) for token in (9, 10, 20, 21)] == [0, 1, 0, 0]
 
 
-def test_payments_and_quantities(s: Stage) -> None:
+def test_payments_and_quantities(s: Launched) -> None:
     for sent in (0, PRICES[1], 2 * PRICES[0] + 1, 3 * PRICES[0]):
         with refused("Payment", sent, 2 * PRICES[0]):
             s.icons.send("mint", 0, 2, sender=s.alice, value=sent)
@@ -59,14 +59,14 @@ def test_payments_and_quantities(s: Stage) -> None:
             s.icons.send("mintReserve", 0, s.bob, quantity, sender=s.owner)
 
 
-def test_icons_that_there_are_not(s: Stage) -> None:
+def test_icons_that_there_are_not(s: Launched) -> None:
     for icon in (2, 2**24, 2**256 - 1):
         for function, *more in (("mint", 1), ("left",), ("iconAt",), ("renderIcon",)):
             with refused("UnknownIcon", icon, 2):
                 s.icons.send(function, icon, *more, sender=s.alice)
 
 
-def test_the_allow_list_counts_all_icons_together(s: Stage) -> None:
+def test_the_allow_list_counts_all_icons_together(s: Launched) -> None:
     s.icons.send("setPhase", ALLOW_LIST, sender=s.owner)
     s.icons.send("setAllowList", leaf(s.alice, 3), s.owner, sender=s.owner)
     s.icons.send("mintWithProof", 0, 2, 3, [], sender=s.alice, value=2 * PRICES[0])
@@ -79,7 +79,7 @@ def test_the_allow_list_counts_all_icons_together(s: Stage) -> None:
         s.icons.send("mintWithSignature", 0, 1, (s.alice, 1, 2**40), bytes(65), sender=s.alice, value=PRICES[0])
 
 
-def test_icons_are_added_until_the_collection_is_sealed(s: Stage) -> None:
+def test_icons_are_added_until_the_collection_is_sealed(s: Launched) -> None:
     c, scene = fresh(s), pointer(s)
     for supply, reserve in ((0, 0), (5, 6)):
         with refused("Supply", supply, reserve):
@@ -104,7 +104,7 @@ def test_icons_are_added_until_the_collection_is_sealed(s: Stage) -> None:
     assert c.call("iconAt", 0) == ("One", scene, 4, ETHER, 5, 1, 0, 0)
 
 
-def test_no_price_times_quantity_overflows(s: Stage) -> None:
+def test_no_price_times_quantity_overflows(s: Launched) -> None:
     c = fresh(s)
     c.send("add", "Dear", pointer(s), 4, 2**96 - 1, 2**32 - 1, 0, sender=s.owner)
     c.send("seal", sender=s.owner)
@@ -116,7 +116,7 @@ def test_no_price_times_quantity_overflows(s: Stage) -> None:
     assert c.call("left", 0) == 2**32 - 1 - 10
 
 
-def test_tokens_show_their_icon(s: Stage) -> None:
+def test_tokens_show_their_icon(s: Launched) -> None:
     for icon, name in enumerate(ICONS):
         s.icons.send("mint", icon, 1, sender=s.alice, value=PRICES[icon])
         found = document(s.icons.call("tokenURI", icon))
@@ -132,7 +132,7 @@ def test_tokens_show_their_icon(s: Stage) -> None:
         s.icons.call("tokenURI", 2)
 
 
-def test_render_takes_the_number_of_a_token(s: Stage) -> None:
+def test_render_takes_the_number_of_a_token(s: Launched) -> None:
     """As in the other collection; icons are drawn by a function of another name."""
     for icon in (1, 1, 0):
         s.icons.send("mint", icon, 1, sender=s.alice, value=PRICES[icon])
@@ -143,7 +143,7 @@ def test_render_takes_the_number_of_a_token(s: Stage) -> None:
         s.icons.call("render", 3)
 
 
-def test_a_token_turns(s: Stage) -> None:
+def test_a_token_turns(s: Launched) -> None:
     """Its picture in `tokenURI` and its animation show the same icon, which is not cut off."""
     s.icons.send("mint", 1, 1, sender=s.alice, value=PRICES[1])
     scheme, _, text = s.icons.call("animation", 0).partition(",")
@@ -167,7 +167,7 @@ def test_a_token_turns(s: Stage) -> None:
             s.icons.call(function, 1)
 
 
-def test_a_receiver_that_calls_back_changes_no_icon(s: Stage) -> None:
+def test_a_receiver_that_calls_back_changes_no_icon(s: Launched) -> None:
     """While tokens of one icon arrive, it mints another."""
     receiver = s.world.deploy(adversary("Receiver"))
     s.world.fund(receiver.address, ETHER)
@@ -182,7 +182,7 @@ def test_a_receiver_that_calls_back_changes_no_icon(s: Stage) -> None:
     assert s.icons.call("iconOf", 0) == 0
 
 
-def test_only_the_owner_may(s: Stage) -> None:
+def test_only_the_owner_may(s: Launched) -> None:
     c, add = fresh(s), ("add", "Two", pointer(s), 4, ETHER, 5, 1)
     for function, *arguments in (add, ("mintReserve", 0, s.bob, 1), ("setPhase", 0), ("withdraw", s.bob), ("seal",)):
         with refused("OwnableUnauthorizedAccount", s.bob):

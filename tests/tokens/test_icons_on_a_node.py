@@ -11,12 +11,13 @@ import pytest
 from commands import Shackled
 from nodes import Node
 from shackled import render
-from shackled.chain import AddressBook
+from shackled.chain._address_book import AddressBook
 from shackled.cli.app import run
-from shackled.datasets import require
-from shackled.ethereum import checksum_address
-from shackled.tokens import read_data_uri, token_scene
+from shackled.datasets._pieces import require
+from shackled.ethereum._encoding import checksum_address
+from shackled.tokens._icons import token_scene
 from shackled.tokens._launch import parts_of
+from shackled.tokens._metadata import read_data_uri
 from stored_scenes import frames_of
 from token_checks import document
 

@@ -9,8 +9,8 @@ pytest.importorskip("pyrevm", reason="a chain with state needs it")
 from hypothesis import settings
 from hypothesis import strategies as st
 from hypothesis.stateful import RuleBasedStateMachine, initialize, invariant, precondition, rule
+from tools.tokens.launched import ALLOW_LIST, ICONS, LIMIT, PRICE, PUBLIC, RESERVE, launched
 from tools.tokens.merkle import proof_of, root_of
-from tools.tokens.stage import ALLOW_LIST, ICONS, LIMIT, PRICE, PUBLIC, RESERVE, stage
 from tools.tokens.world import ETHER, ZERO, Contract, Refused, account
 
 from token_checks import succeeds
@@ -33,7 +33,7 @@ class Sales(RuleBasedStateMachine):
 
     @initialize()
     def begin(self) -> None:
-        self.s = stage()
+        self.s = launched()
         self.world = self.s.world
         for person in PEOPLE:
             self.world.of(person).balance = START

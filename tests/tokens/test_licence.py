@@ -4,9 +4,10 @@ from pathlib import Path
 
 import pytest
 
-from shackled.datasets import pieces, require
+from shackled.datasets import pieces
+from shackled.datasets._pieces import require
 from shackled.errors import InputError
-from shackled.tokens import licence_of
+from shackled.tokens._icons import licence_of
 
 FILE = Path("model.obj")
 

@@ -14,7 +14,7 @@ import pytest
 from nodes import Node
 from open_sales import open_sale
 from proxies import Liar
-from shackled.chain import VARIABLE
+from shackled.chain._address_book import VARIABLE
 from shackled.cli.app import run
 from shackled.tokens import plan_storage, store
 from shackled.tokens._demo import development_accounts

@@ -10,8 +10,7 @@ import pytest
 from PIL import Image as PillowImage
 
 from shackled.errors import VerificationError
-from shackled.tokens import MAX_LENGTH, read_data_uri
-from shackled.tokens._metadata import read_token_uri
+from shackled.tokens._metadata import MAX_LENGTH, read_data_uri, read_token_uri
 
 PIXELS = np.arange(48, dtype=np.uint8).reshape(4, 4, 3)
 

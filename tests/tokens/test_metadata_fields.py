@@ -14,7 +14,7 @@ import numpy as np
 from attrs import evolve
 from numpy.typing import NDArray
 from PIL import Image as PillowImage
-from tools.tokens.stage import ICONS, Stage, icon_scene, stage, store_scene
+from tools.tokens.launched import ICONS, Launched, icon_scene, launched, store_scene
 from tools.tokens.world import ETHER, Contract, Refused
 
 from shackled import render
@@ -30,9 +30,9 @@ MOST_GAS = 10_000_000
 
 
 @pytest.fixture(scope="module")
-def s() -> Stage:
+def s() -> Launched:
     """A token of each icon, and ten revealed ones of Genesis."""
-    s = stage()
+    s = launched()
     s.mint(10)
     s.reveal(0)
     for icon, (_, _, _, price) in enumerate(ICONS.values()):
@@ -41,14 +41,14 @@ def s() -> Stage:
 
 
 @pytest.fixture(scope="module")
-def editions(s: Stage) -> Contract:
+def editions(s: Launched) -> Contract:
     collection = s.world.deploy("Editions", s.studio)
     scene = store_scene(s.studio, evolve(icon_scene("icons/ethereum"), width=32, height=24))
     collection.send("add", "Ether", scene, 3, True, ETHER, 5, 0, 3, sender=s.bob)
     return collection
 
 
-def follow(s: Stage, url: str) -> NDArray[np.uint8]:
+def follow(s: Launched, url: str) -> NDArray[np.uint8]:
     """Return the picture at a web3:// address, called as ERC-6860 says of contracts without a mode of their own."""
     match = re.fullmatch(rf"web3://({ADDRESS}):1/(\w+)((?:/[0-9a-fx]+)+)\?mime\.(?:type|content)=([\w/]+)", url)
     assert match, url
@@ -61,7 +61,7 @@ def follow(s: Stage, url: str) -> NDArray[np.uint8]:
         return np.asarray(opened.convert("RGB"))
 
 
-def test_the_link_of_a_token_leads_to_its_picture(s: Stage, editions: Contract) -> None:
+def test_the_link_of_a_token_leads_to_its_picture(s: Launched, editions: Contract) -> None:
     for collection, token, scale in (
         (s.icons, 0, 1),
         (s.icons, 1, 1),
@@ -75,12 +75,12 @@ def test_the_link_of_a_token_leads_to_its_picture(s: Stage, editions: Contract) 
 
 
 def test_links_name_their_chain() -> None:
-    elsewhere = stage(chain_id=11155111)
+    elsewhere = launched(chain_id=11155111)
     found = document(elsewhere.metadata.call("tokenURI", 0, seed_of(0)))
     assert re.match(rf"web3://{ADDRESS}:11155111/render/0x", found["external_url"])
 
 
-def test_the_colour_around_a_piece_is_that_of_its_background(s: Stage) -> None:
+def test_the_colour_around_a_piece_is_that_of_its_background(s: Launched) -> None:
     inverted = set()
     for number in range(12):
         seed = seed_of(number)
@@ -95,7 +95,7 @@ def test_the_colour_around_a_piece_is_that_of_its_background(s: Stage) -> None:
     assert len(inverted) == 2
 
 
-def test_numbers_are_shown_as_numbers(s: Stage, editions: Contract) -> None:
+def test_numbers_are_shown_as_numbers(s: Launched, editions: Contract) -> None:
     for uri in (s.genesis.call("tokenURI", 0), s.icons.call("tokenURI", 0), editions.call("tokenURI", 0)):
         attributes = document(uri)["attributes"]
         for each in attributes:
@@ -103,7 +103,7 @@ def test_numbers_are_shown_as_numbers(s: Stage, editions: Contract) -> None:
         assert any("display_type" in each for each in attributes)
 
 
-def test_collections_have_a_banner(s: Stage, editions: Contract) -> None:
+def test_collections_have_a_banner(s: Launched, editions: Contract) -> None:
     for collection in (s.genesis, s.icons, editions):
         found = document(collection.call("contractURI"))
         assert list(found) == ["name", "symbol", "description", "banner_image", "image"]
@@ -120,7 +120,7 @@ def test_collections_have_a_banner(s: Stage, editions: Contract) -> None:
     assert "image" not in document(empty.call("contractURI"))
 
 
-def test_the_tokens_of_an_account(s: Stage, editions: Contract) -> None:
+def test_the_tokens_of_an_account(s: Launched, editions: Contract) -> None:
     def tokens(collection: Contract, *range_: int, owner: str) -> tuple[Any, ...]:
         return tuple(collection.call("tokensOfOwnerIn" if range_ else "tokensOfOwner", owner, *range_))
 
@@ -138,7 +138,7 @@ def test_the_tokens_of_an_account(s: Stage, editions: Contract) -> None:
     assert editions.call("explicitOwnershipOf", 3)[0] == "0x" + "00" * 20
 
 
-def test_the_picture_is_that_of_the_generator(s: Stage) -> None:
+def test_the_picture_is_that_of_the_generator(s: Launched) -> None:
     """For pieces of all kinds: wires, inverted, one prism."""
     kinds = set()
     for number in range(60):
@@ -155,7 +155,7 @@ def test_the_picture_is_that_of_the_generator(s: Stage) -> None:
     assert len(kinds) >= 3
 
 
-def test_the_traits_are_those_of_the_model(s: Stage) -> None:
+def test_the_traits_are_those_of_the_model(s: Launched) -> None:
     for token in range(10):
         seed = s.genesis.call("seedOf", token)
         piece = generate(seed)
@@ -176,7 +176,7 @@ def test_the_traits_are_those_of_the_model(s: Stage) -> None:
         assert s.genesis.call("render", token) == s.generator.call("render", seed)
 
 
-def test_a_token_shows_that_it_is_not_revealed(s: Stage) -> None:
+def test_a_token_shows_that_it_is_not_revealed(s: Launched) -> None:
     with s.world.attempt():
         (token,) = s.mint()
         found = document(s.genesis.call("tokenURI", token))
@@ -193,7 +193,7 @@ def test_a_token_shows_that_it_is_not_revealed(s: Stage) -> None:
         assert "Revealed" not in traits(document(s.genesis.call("tokenURI", token)))
 
 
-def test_there_is_nothing_to_see_of_tokens_that_are_not_there(s: Stage) -> None:
+def test_there_is_nothing_to_see_of_tokens_that_are_not_there(s: Launched) -> None:
     for token in (10, 1023, 2**256 - 1):
         with pytest.raises(Refused, match="URIQueryForNonexistentToken"):
             s.genesis.call("tokenURI", token)
@@ -202,7 +202,7 @@ def test_there_is_nothing_to_see_of_tokens_that_are_not_there(s: Stage) -> None:
                 s.genesis.call(function, token)
 
 
-def test_length_and_gas(s: Stage) -> None:
+def test_length_and_gas(s: Launched) -> None:
     lengths, gas = [], []
     for number in range(48):
         lengths.append(len(s.metadata.call("tokenURI", number, seed_of(number))))
@@ -214,7 +214,7 @@ def test_length_and_gas(s: Stage) -> None:
 
 def test_nothing_of_it_can_be_changed() -> None:
     """No function writes generator, renderer, metadata, price, supply or a round that is revealed."""
-    s = stage()
+    s = launched()
     writers = {
         entry["name"]
         for entry in s.genesis.abi

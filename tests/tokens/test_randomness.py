@@ -9,10 +9,11 @@ import pytest
 
 from nodes import KEY, Node, anvil, needs_anvil
 from proxies import Liar
-from shackled.chain import VARIABLE, Connection
+from shackled.chain import Connection
+from shackled.chain._address_book import VARIABLE
 from shackled.cli.app import run
 from shackled.errors import InputError, TransactionError
-from shackled.tokens import check_randomness
+from shackled.tokens._reveal import check_randomness
 
 NODE_OPTIONS = ("--chain-id", "42161")
 

@@ -9,7 +9,7 @@ import rlp
 
 pytest.importorskip("pyrevm", reason="a chain with state needs it")
 
-from tools.tokens.stage import PRICE, Stage, stage
+from tools.tokens.launched import PRICE, Launched, launched
 from tools.tokens.world import HISTORY, HISTORY_LENGTH, Refused, keccak
 
 from adversaries import adversary
@@ -18,14 +18,14 @@ from token_checks import refused
 ROUND, DELAY = 32, 128
 
 
-def drawn(s: Stage, token: int) -> bytes:
+def drawn(s: Launched, token: int) -> bytes:
     """What the documentation says is drawn for a token."""
     block = s.genesis.call("blockOf", s.genesis.call("roundOf", token))
     address = bytes.fromhex(s.genesis.address[2:]).rjust(32, b"\0")
     return keccak(s.world.randomness(block) + address + token.to_bytes(32, "big"))
 
 
-def test_a_round_has_one_block_long_after_its_own(s: Stage) -> None:
+def test_a_round_has_one_block_long_after_its_own(s: Launched) -> None:
     first = s.genesis.call("firstBlock")
     assert (s.genesis.call("ROUND"), s.genesis.call("DELAY")) == (ROUND, DELAY)
     for _ in range(3 * ROUND):
@@ -38,7 +38,7 @@ def test_a_round_has_one_block_long_after_its_own(s: Stage) -> None:
         s.world.mine()
 
 
-def test_all_tokens_of_a_round_are_revealed_at_once(s: Stage) -> None:
+def test_all_tokens_of_a_round_are_revealed_at_once(s: Launched) -> None:
     first = s.mint(2)
     s.world.mine(ROUND)
     second = s.mint(2, s.bob)
@@ -57,7 +57,7 @@ def test_all_tokens_of_a_round_are_revealed_at_once(s: Stage) -> None:
     assert s.genesis.call("hiddenRounds", 0, 3) == ()
 
 
-def test_nobody_can_reveal_before_the_block(s: Stage) -> None:
+def test_nobody_can_reveal_before_the_block(s: Launched) -> None:
     s.mint()
     block = s.genesis.call("blockOf", 0)
     header = s.world.header(s.world.number - 1)
@@ -67,7 +67,7 @@ def test_nobody_can_reveal_before_the_block(s: Stage) -> None:
             s.genesis.send("reveal", [0], [header], sender=s.owner)
 
 
-def test_rounds_whose_blocks_no_chain_reaches(s: Stage) -> None:
+def test_rounds_whose_blocks_no_chain_reaches(s: Launched) -> None:
     """The number of the block would not fit into 256 bits, or nearly so."""
     last = 2**64 - 1
     assert s.genesis.call("blockOf", last) == s.genesis.call("blockOf", 0) + 32 * last
@@ -80,7 +80,7 @@ def test_rounds_whose_blocks_no_chain_reaches(s: Stage) -> None:
             s.genesis.send("reveal", [round_], [b""])
 
 
-def test_only_the_header_of_the_block_counts(s: Stage) -> None:
+def test_only_the_header_of_the_block_counts(s: Launched) -> None:
     s.mint()
     block = s.genesis.call("blockOf", 0)
     s.world.mine_to(block + 300)
@@ -99,7 +99,7 @@ def test_only_the_header_of_the_block_counts(s: Stage) -> None:
     s.genesis.send("reveal", [0], [right])
 
 
-def test_who_reveals_and_when_makes_no_difference(s: Stage) -> None:
+def test_who_reveals_and_when_makes_no_difference(s: Launched) -> None:
     """Delays of any length, different callers: the seed is the same."""
     s.mint()
     block = s.genesis.call("blockOf", 0)
@@ -112,7 +112,7 @@ def test_who_reveals_and_when_makes_no_difference(s: Stage) -> None:
     assert seeds == {drawn(s, 0)}
 
 
-def test_a_second_reveal_changes_nothing(s: Stage) -> None:
+def test_a_second_reveal_changes_nothing(s: Launched) -> None:
     s.mint()
     s.reveal(0)
     before = s.genesis.call("seedOf", 0)
@@ -130,7 +130,7 @@ def test_a_second_reveal_changes_nothing(s: Stage) -> None:
     assert s.genesis.call("seedOf", 1) == drawn(s, 1)
 
 
-def test_a_round_that_is_forgotten_is_proven_by_headers(s: Stage) -> None:
+def test_a_round_that_is_forgotten_is_proven_by_headers(s: Launched) -> None:
     """More than a day late: the seed is the same, it only takes more headers."""
     s.mint()
     block = s.genesis.call("blockOf", 0)
@@ -157,7 +157,7 @@ def test_a_round_that_is_forgotten_is_proven_by_headers(s: Stage) -> None:
     assert s.genesis.call("seedOf", 0) == drawn(s, 0)
 
 
-def test_a_hash_can_be_kept_before_it_is_forgotten(s: Stage) -> None:
+def test_a_hash_can_be_kept_before_it_is_forgotten(s: Launched) -> None:
     s.mint()
     block = s.genesis.call("blockOf", 0)
     with refused("BlockToCome", block):
@@ -169,7 +169,7 @@ def test_a_hash_can_be_kept_before_it_is_forgotten(s: Stage) -> None:
     assert s.genesis.call("seedOf", 0) == drawn(s, 0)
 
 
-def test_a_chain_without_randomness_says_so(s: Stage, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_a_chain_without_randomness_says_so(s: Launched, monkeypatch: pytest.MonkeyPatch) -> None:
     s.mint()
     monkeypatch.setattr(s.world, "randomness", lambda number: bytes(32))
     block = s.genesis.call("blockOf", 0)
@@ -181,7 +181,7 @@ def test_a_chain_without_randomness_says_so(s: Stage, monkeypatch: pytest.Monkey
 PREV_RANDAO = 13
 
 
-def test_the_hash_of_the_block_is_no_part_of_the_seed(s: Stage) -> None:
+def test_the_hash_of_the_block_is_no_part_of_the_seed(s: Launched) -> None:
     """A proposer can try any number of hashes: headers that differ in any field but PREVRANDAO give the same seed."""
     s.mint()
     block = s.genesis.call("blockOf", 0)
@@ -206,7 +206,7 @@ def test_the_hash_of_the_block_is_no_part_of_the_seed(s: Stage) -> None:
     assert set(seeds.values()) == {drawn(s, 0)}
 
 
-def test_headers_of_another_form_give_no_randomness(s: Stage) -> None:
+def test_headers_of_another_form_give_no_randomness(s: Launched) -> None:
     """A fork that changed headers altogether must not lead to seeds made of something else."""
 
     def header(randomness: int = 32, bloom: int = 256) -> bytes:
@@ -226,7 +226,7 @@ def test_headers_of_another_form_give_no_randomness(s: Stage) -> None:
 
 
 @pytest.mark.parametrize("while_it_arrives", [False, True])
-def test_mint_look_and_revert_does_not_work(s: Stage, while_it_arrives: bool) -> None:
+def test_mint_look_and_revert_does_not_work(s: Launched, while_it_arrives: bool) -> None:
     """The seed is not there to be looked at in the transaction of the mint."""
     looker = s.world.deploy(adversary("Looker"))
     data = looker.encode("mintAndLook", (s.genesis, while_it_arrives))[1]
@@ -236,11 +236,11 @@ def test_mint_look_and_revert_does_not_work(s: Stage, while_it_arrives: bool) ->
         s.world.mine()
 
 
-def test_what_a_hidden_token_shows_says_nothing_of_its_seed(s: Stage) -> None:
+def test_what_a_hidden_token_shows_says_nothing_of_its_seed(s: Launched) -> None:
     """The same in two worlds whose blocks to come differ."""
     shown = []
     for salt in ("one", "another"):
-        world = stage()
+        world = launched()
         world.world.salt = salt
         world.mint(3)
         shown.append([world.genesis.call("tokenURI", token) for token in range(3)])
@@ -250,7 +250,7 @@ def test_what_a_hidden_token_shows_says_nothing_of_its_seed(s: Stage) -> None:
     assert shown[0][3] != shown[1][3]
 
 
-def test_seeds_without_a_piece_are_passed_over(s: Stage) -> None:
+def test_seeds_without_a_piece_are_passed_over(s: Launched) -> None:
     for number in (253, 308884):
         bad = keccak(f"seed-{number}".encode())
         with pytest.raises(Refused):
@@ -261,7 +261,7 @@ def test_seeds_without_a_piece_are_passed_over(s: Stage) -> None:
         assert len(s.metadata.call("tokenURI", 0, bad)) > 10_000
 
 
-def test_too_little_gas_leads_to_no_other_seed(s: Stage) -> None:
+def test_too_little_gas_leads_to_no_other_seed(s: Launched) -> None:
     """The generator runs out of gas in the middle: that must not be taken for a seed without a piece."""
     seed = keccak(b"seed")
     settled, _ = s.metadata.call("settle", seed)
@@ -274,7 +274,7 @@ def test_too_little_gas_leads_to_no_other_seed(s: Stage) -> None:
         assert found == settled
 
 
-def test_the_gas_of_a_reveal_does_not_grow_with_its_tokens(s: Stage) -> None:
+def test_the_gas_of_a_reveal_does_not_grow_with_its_tokens(s: Launched) -> None:
     with s.world.attempt():
         s.mint()
         s.world.mine_to(s.genesis.call("blockOf", 0) + 300)

@@ -15,13 +15,13 @@ from forged_blocks import forged
 from nodes import Node, anvil, needs_anvil
 from open_sales import open_sale
 from proxies import Liar
-from shackled.chain import VARIABLE
+from shackled.chain._address_book import VARIABLE
 from shackled.cli.app import run
 from shackled.errors import RevertError
-from shackled.ethereum import encode_header
-from shackled.tokens import Collection, hidden_rounds
+from shackled.ethereum._encoding import encode_header
+from shackled.tokens._collection import Collection
 from shackled.tokens._contract import perform
-from shackled.tokens._reveal import HEADERS_AT_ONCE, KNOWN_BLOCKS_BEFORE
+from shackled.tokens._reveal import HEADERS_AT_ONCE, KNOWN_BLOCKS_BEFORE, hidden_rounds
 from token_checks import document, traits
 
 WALLET = 5

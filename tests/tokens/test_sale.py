@@ -12,12 +12,13 @@ from eth_account import Account
 
 pytest.importorskip("pyrevm", reason="a chain with state needs it")
 
+from tools.tokens.launched import ALLOW_LIST, CLOSED, LIMIT, PRICE, PUBLIC, RESERVE, Launched, launched
 from tools.tokens.merkle import leaf, pair, proof_of, root_of
-from tools.tokens.stage import ALLOW_LIST, CLOSED, LIMIT, PRICE, PUBLIC, RESERVE, Stage, stage
 from tools.tokens.world import ETHER, ZERO, Contract, Refused, account, keccak
 
 from adversaries import adversary
-from shackled.tokens import KINDS, sign_allowance
+from shackled.tokens._collection import KINDS
+from shackled.tokens._minting import sign_allowance
 from token_checks import execute, refused
 
 KEY = keccak(b"who signs")
@@ -27,7 +28,7 @@ SIGNER = Account.from_key(KEY).address
 # ---- the public sale ----
 
 
-def test_other_payments_and_quantities_are_refused(s: Stage) -> None:
+def test_other_payments_and_quantities_are_refused(s: Launched) -> None:
     for sent in (0, PRICE - 1, PRICE + 1, 2 * PRICE, 100 * ETHER):
         with refused("Payment", sent, PRICE):
             s.genesis.send("mint", 1, sender=s.alice, value=sent)
@@ -41,7 +42,7 @@ def test_other_payments_and_quantities_are_refused(s: Stage) -> None:
 
 
 @pytest.mark.parametrize("phase", [CLOSED, ALLOW_LIST, PUBLIC])
-def test_each_way_of_minting_has_its_phase(s: Stage, phase: int) -> None:
+def test_each_way_of_minting_has_its_phase(s: Launched, phase: int) -> None:
     permission = (s.alice, 3, 2**40)
     s.genesis.send("setAllowList", root_of({s.alice: 3}), SIGNER, sender=s.owner)
     s.genesis.send("setPhase", phase, sender=s.owner)
@@ -55,7 +56,7 @@ def test_each_way_of_minting_has_its_phase(s: Stage, phase: int) -> None:
             mint()
 
 
-def test_the_last_token_is_sold_and_no_further(s: Stage) -> None:
+def test_the_last_token_is_sold_and_no_further(s: Launched) -> None:
     def keep(quantity: int) -> None:
         s.genesis.send("mintReserve", s.bob, quantity, sender=s.owner)
 
@@ -79,7 +80,7 @@ def test_the_last_token_is_sold_and_no_further(s: Stage) -> None:
 # ---- the allow-list: by proof ----
 
 
-def test_a_proof_lets_mint_as_many_as_it_says(s: Stage) -> None:
+def test_a_proof_lets_mint_as_many_as_it_says(s: Launched) -> None:
     entries = {s.alice: 3, s.bob: 1, account("carol"): 12, account("dave"): 2, account("erin"): 1}
     s.genesis.send("setPhase", ALLOW_LIST, sender=s.owner)
     s.genesis.send("setAllowList", root_of(entries), ZERO, sender=s.owner)
@@ -106,7 +107,7 @@ def test_a_proof_lets_mint_as_many_as_it_says(s: Stage) -> None:
         s.genesis.send("mintWithProof", 0, 12, proof_of(entries, carol), sender=carol)
 
 
-def test_an_inner_node_is_no_leaf(s: Stage) -> None:
+def test_an_inner_node_is_no_leaf(s: Launched) -> None:
     """A second preimage: what is hashed to an inner node is shown as an account with a quantity."""
     entries = {s.alice: 1, s.bob: 1, account("carol"): 1, account("dave"): 1}
     leaves = sorted(leaf(*entry) for entry in entries.items())
@@ -123,7 +124,7 @@ def test_an_inner_node_is_no_leaf(s: Stage) -> None:
         s.genesis.send("mintWithProof", 1, 1, [], sender=mallory, value=PRICE)
 
 
-def test_without_a_list_there_is_no_proof(s: Stage) -> None:
+def test_without_a_list_there_is_no_proof(s: Launched) -> None:
     s.genesis.send("setPhase", ALLOW_LIST, sender=s.owner)
     with refused("NotOnAllowList", s.alice, 1):
         s.genesis.send("mintWithProof", 1, 1, [], sender=s.alice, value=PRICE)
@@ -146,20 +147,20 @@ def sign(contract: Contract, permission: tuple[str, int, int], key: bytes = KEY,
 
 
 def mint_signed(
-    s: Stage, permission: tuple[str, int, int], signature: bytes, quantity: int = 1, sender: str | None = None
+    s: Launched, permission: tuple[str, int, int], signature: bytes, quantity: int = 1, sender: str | None = None
 ) -> None:
     sender, value = sender or s.alice, quantity * PRICE
     s.genesis.send("mintWithSignature", quantity, permission, signature, sender=sender, value=value)
 
 
 @pytest.fixture
-def signing(s: Stage) -> Stage:
+def signing(s: Launched) -> Launched:
     s.genesis.send("setPhase", ALLOW_LIST, sender=s.owner)
     s.genesis.send("setAllowList", bytes(32), SIGNER, sender=s.owner)
     return s
 
 
-def test_a_signature_lets_mint_as_many_as_it_says(signing: Stage) -> None:
+def test_a_signature_lets_mint_as_many_as_it_says(signing: Launched) -> None:
     s = signing
     permission = (s.alice, 3, s.world.time)
     signature = sign(s.genesis, permission)
@@ -187,7 +188,7 @@ def test_a_signature_lets_mint_as_many_as_it_says(signing: Stage) -> None:
         mint_signed(s, permission, signature)
 
 
-def test_a_signature_for_elsewhere_is_worth_nothing(signing: Stage) -> None:
+def test_a_signature_for_elsewhere_is_worth_nothing(signing: Launched) -> None:
     s = signing
     permission = (s.alice, 3, 2**40)
     right = sign(s.genesis, permission)
@@ -209,7 +210,7 @@ def test_a_signature_for_elsewhere_is_worth_nothing(signing: Stage) -> None:
         with refused("AllowanceNotSigned"):
             mint_signed(s, permission, signature)
     # that of this chain and this contract, on another chain
-    elsewhere = stage(chain_id=5)
+    elsewhere = launched(chain_id=5)
     assert elsewhere.genesis.address == s.genesis.address
     elsewhere.genesis.send("setPhase", ALLOW_LIST, sender=s.owner)
     elsewhere.genesis.send("setAllowList", bytes(32), SIGNER, sender=s.owner)
@@ -221,7 +222,7 @@ def test_a_signature_for_elsewhere_is_worth_nothing(signing: Stage) -> None:
         mint_signed(s, permission, right)
 
 
-def test_a_contract_may_sign(signing: Stage) -> None:
+def test_a_contract_may_sign(signing: Launched) -> None:
     s = signing
     signer = s.world.deploy(adversary("Signer"))
     s.genesis.send("setAllowList", bytes(32), signer.address, sender=s.owner)
@@ -236,7 +237,7 @@ def test_a_contract_may_sign(signing: Stage) -> None:
 # ---- the owner ----
 
 
-def test_only_the_owner_may(s: Stage) -> None:
+def test_only_the_owner_may(s: Launched) -> None:
     calls: dict[str, tuple[Any, ...]] = {"setPhase": (1,), "setAllowList": (bytes(32), ZERO), "setRoyalty": (ZERO, 1)}
     calls |= {"mintReserve": (ZERO, 1), "withdraw": (ZERO,), "transferOwnership": (ZERO,)}
     for function, arguments in calls.items():
@@ -245,7 +246,7 @@ def test_only_the_owner_may(s: Stage) -> None:
                 s.genesis.send(function, *arguments, sender=sender)
 
 
-def test_ownership_changes_in_two_steps_and_is_never_given_up(s: Stage) -> None:
+def test_ownership_changes_in_two_steps_and_is_never_given_up(s: Launched) -> None:
     def cannot(function: str, *arguments: Any, sender: str) -> None:
         with refused("OwnableUnauthorizedAccount", sender):
             s.genesis.send(function, *arguments, sender=sender)
@@ -267,7 +268,7 @@ def test_ownership_changes_in_two_steps_and_is_never_given_up(s: Stage) -> None:
 # ---- the ether ----
 
 
-def test_the_owner_fetches_all_of_it(s: Stage) -> None:
+def test_the_owner_fetches_all_of_it(s: Launched) -> None:
     s.mint(4)
     treasury = account("treasury")
     receipt = s.genesis.send("withdraw", treasury, sender=s.owner)
@@ -277,7 +278,7 @@ def test_the_owner_fetches_all_of_it(s: Stage) -> None:
     assert s.world.balance(treasury) == 4 * PRICE
 
 
-def test_who_refuses_ether_blocks_nothing(s: Stage) -> None:
+def test_who_refuses_ether_blocks_nothing(s: Launched) -> None:
     s.mint(4)
     refuser = s.world.deploy(adversary("Refuser"))
     for to in (refuser.address, s.genesis.address, ZERO):
@@ -292,7 +293,7 @@ def test_who_refuses_ether_blocks_nothing(s: Stage) -> None:
     assert s.world.balance(s.bob) == 1000 * ETHER + 4 * PRICE
 
 
-def test_long_answers_do_not_make_a_withdrawal_dear(s: Stage) -> None:
+def test_long_answers_do_not_make_a_withdrawal_dear(s: Launched) -> None:
     s.mint(4)
     bomb = s.world.deploy(adversary("Bomb"))
     # the receiver's own memory costs what it costs; copying it would cost as much again
@@ -301,7 +302,7 @@ def test_long_answers_do_not_make_a_withdrawal_dear(s: Stage) -> None:
     assert gas < alone + 50_000
 
 
-def test_ether_comes_in_by_minting_only(s: Stage) -> None:
+def test_ether_comes_in_by_minting_only(s: Launched) -> None:
     s.mint()
     for data in (b"", b"\x12\x34\x56\x78", s.genesis.encode("totalSupply", ())[1]):
         with pytest.raises(Refused):
@@ -317,7 +318,7 @@ def test_ether_comes_in_by_minting_only(s: Stage) -> None:
     assert s.world.balance(s.genesis.address) == PRICE
 
 
-def test_ether_that_is_forced_in_comes_out_again(s: Stage) -> None:
+def test_ether_that_is_forced_in_comes_out_again(s: Launched) -> None:
     s.world.of(s.genesis.address).balance += 7
     s.mint()
     s.genesis.send("withdraw", s.owner, sender=s.owner)
@@ -328,7 +329,7 @@ def test_ether_that_is_forced_in_comes_out_again(s: Stage) -> None:
 # ---- contracts that mint ----
 
 
-def test_tokens_do_not_go_where_nobody_takes_them(s: Stage) -> None:
+def test_tokens_do_not_go_where_nobody_takes_them(s: Launched) -> None:
     deaf = s.world.deploy(adversary("Deaf"))
     with refused("TransferToNonERC721ReceiverImplementer"):
         execute(deaf, s.genesis, "mint", 1, sender=s.alice, value=PRICE)
@@ -338,7 +339,7 @@ def test_tokens_do_not_go_where_nobody_takes_them(s: Stage) -> None:
 
 @pytest.mark.parametrize("swallow", [False, True])
 @pytest.mark.parametrize("function", ["mint", "mintWithProof", "mintReserve", "withdraw", "transferFrom"])
-def test_calls_from_a_token_that_arrives(s: Stage, function: str, swallow: bool) -> None:
+def test_calls_from_a_token_that_arrives(s: Launched, function: str, swallow: bool) -> None:
     """A receiver calls back while it gets two tokens. It never gets a token that is not paid, nor ether."""
     receiver = s.world.deploy(adversary("Receiver"))
     s.world.fund(receiver.address, ETHER)
@@ -377,7 +378,7 @@ def test_calls_from_a_token_that_arrives(s: Stage, function: str, swallow: bool)
     assert s.genesis.call("reserveMinted") == 0
 
 
-def test_constructors_refuse_what_makes_no_sense(s: Stage) -> None:
+def test_constructors_refuse_what_makes_no_sense(s: Launched) -> None:
     terms = (s.owner, LIMIT, s.owner, 500)
     wrong: list[tuple[tuple[Any, ...], str, tuple[Any, ...]]] = [
         ((s.alice, PRICE, RESERVE, terms), "NoMetadata", (s.alice,)),

@@ -8,7 +8,7 @@ import pytest
 
 pytest.importorskip("pyrevm", reason="a chain with state needs it")
 
-from tools.tokens.stage import Stage, stage
+from tools.tokens.launched import Launched, launched
 from tools.tokens.world import ETHER, ZERO, Contract, account, keccak
 
 from token_checks import refused
@@ -41,12 +41,12 @@ def interface(signatures: list[str]) -> bytes:
 
 
 @pytest.fixture(scope="module")
-def s() -> Stage:
-    return stage()
+def s() -> Launched:
+    return launched()
 
 
 @pytest.fixture(params=["genesis", "icons"])
-def contract(s: Stage, request: pytest.FixtureRequest) -> Contract:
+def contract(s: Launched, request: pytest.FixtureRequest) -> Contract:
     return s.genesis if request.param == "genesis" else s.icons
 
 
@@ -63,7 +63,7 @@ def test_interfaces(contract: Contract) -> None:
     assert contract.gas_of("supportsInterface", bytes.fromhex("49064906")) < 30_000
 
 
-def test_functions_and_events_of_the_standards_are_there(s: Stage, contract: Contract) -> None:
+def test_functions_and_events_of_the_standards_are_there(s: Launched, contract: Contract) -> None:
     wanted = [each for signatures in STANDARDS.values() for each in signatures]
     code = s.world.of(contract.address).code
     for each in (*wanted, "contractURI()", "totalSupply()", "eip712Domain()"):
@@ -78,7 +78,7 @@ def test_functions_and_events_of_the_standards_are_there(s: Stage, contract: Con
     assert name == contract.call("name")
 
 
-def test_royalties(s: Stage, contract: Contract) -> None:
+def test_royalties(s: Launched, contract: Contract) -> None:
     with s.world.attempt():
         assert contract.call("royaltyInfo", 0, ETHER) == (s.owner, ETHER // 20)
         contract.send("setRoyalty", s.bob, 1000, sender=s.owner)
@@ -91,7 +91,7 @@ def test_royalties(s: Stage, contract: Contract) -> None:
             contract.send("setRoyalty", ZERO, 100, sender=s.owner)
 
 
-def test_a_reveal_tells_marketplaces(s: Stage) -> None:
+def test_a_reveal_tells_marketplaces(s: Launched) -> None:
     with s.world.attempt():
         s.mint(7)
         block = s.genesis.call("blockOf", 0)
@@ -103,7 +103,7 @@ def test_a_reveal_tells_marketplaces(s: Stage) -> None:
     ]
 
 
-def test_tokens_change_hands_as_approved(s: Stage) -> None:
+def test_tokens_change_hands_as_approved(s: Launched) -> None:
     with s.world.attempt():
         carol = account("carol")
         s.mint(3)

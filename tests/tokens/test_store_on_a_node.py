@@ -14,8 +14,8 @@ from commands import Shackled
 from nodes import Node
 from shackled import load, render
 from shackled.cli.app import run
-from shackled.datasets import require
-from shackled.tokens import token_scene
+from shackled.datasets._pieces import require
+from shackled.tokens._icons import token_scene
 from stored_scenes import frames_of
 
 OWNER, ALICE, BOB = range(3)

@@ -13,19 +13,20 @@ pytest.importorskip("pyrevm", reason="a chain with state needs it")
 from attrs import evolve
 from benchmarks import icons, tokens
 from benchmarks.snapshot import changes
+from tools.tokens.launched import ALLOW_LIST, ICONS, PRICE, PUBLIC, icon_scene, launched, store_scene
 from tools.tokens.merkle import proof_of, root_of
-from tools.tokens.stage import ALLOW_LIST, ICONS, PRICE, PUBLIC, icon_scene, stage, store_scene
 from tools.tokens.world import Contract, account
 
 from shackled.chain import Connection
-from shackled.datasets import pieces, require
-from shackled.deploy import local_chain
-from shackled.ethereum import checksum_address, intrinsic_gas
-from shackled.studio import STUDIO
+from shackled.datasets import pieces
+from shackled.datasets._pieces import require
+from shackled.deploy._contract import local_chain
+from shackled.ethereum._encoding import checksum_address, intrinsic_gas
 from shackled.studio import store_scene as keep
-from shackled.tokens import Contract as Contract_
-from shackled.tokens import add_call, token_scene
+from shackled.studio._storage import STUDIO
 from shackled.tokens._contract import USUAL_GAS
+from shackled.tokens._contract import Contract as Contract_
+from shackled.tokens._icons import add_call, token_scene
 
 PAGE = Path(__file__).resolve().parents[2] / "docs" / "tokens.md"
 COMMAND = "python -m benchmarks.icons"
@@ -74,7 +75,7 @@ def test_models_would_not_fit_beside_all_pictures() -> None:
 
 
 def test_the_usual_gas_of_each_function() -> None:
-    s = stage()
+    s = launched()
     new = s.world.deploy("IconsCollection", s.studio, (s.owner, 10, s.owner, 500), sender=s.owner)
     pointer = store_scene(s.studio, icon_scene("icons/lightning"))
     listed = {s.alice: 20} | {account(f"listed {number}"): 2 for number in range(99)}

@@ -8,15 +8,15 @@ import pytest
 
 pytest.importorskip("pyrevm", reason="a chain with state needs it")
 
+from tools.tokens.launched import ALLOW_LIST, PUBLIC
 from tools.tokens.merkle import proof_of, root_of
-from tools.tokens.stage import ALLOW_LIST, PUBLIC
 from tools.tokens.world import HISTORY, HISTORY_LENGTH, ZERO, Contract, World, account, keccak
 from web3 import Web3
 
 from nodes import Node
 from shackled.artifacts import artifact
 from shackled.datasets.genesis import seed_of
-from shackled.ethereum import encode_header
+from shackled.ethereum._encoding import encode_header
 
 PRICE = 10**17
 

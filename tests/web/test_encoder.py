@@ -22,8 +22,9 @@ from shackled import Ground, InputError, Light, Mesh, Object, Scene, load
 from shackled.artifacts import artifact
 from shackled.datasets import pieces
 from shackled.image import decode_bmp
-from shackled.scene import Rectangle, decode, encode, encode_scene_file, render_call
+from shackled.scene import decode, encode
 from shackled.scene._arithmetic import from_axis_angle, multiply
+from shackled.scene._codec import Rectangle, render_call
 from shackled.scene._files.original import original_scene
 from shackled.scene._turning import turn
 
@@ -46,7 +47,7 @@ class Calls:
     ) -> None:
         """text: the file, if it is not as `Scene.save` writes it."""
         self.names.append(name)
-        text = text or encode_scene_file(scene).decode()
+        text = text or scene.encode().decode()
         self.lines.append({"name": function, "text": text} | ({"tile": tile._asdict()} if tile else {}))
         self.expected.append(encode(artifact("Renderer").selectors[function], scene, tile))
 
@@ -152,7 +153,7 @@ def changed(scene: Scene, rng: np.random.Generator) -> Scene:
 def test_scene_files(tmp_path: Path) -> None:
     calls = Calls()
     for seed in range(DOCUMENTS):
-        document = json.loads(encode_scene_file(random_case(seed).scene))
+        document = json.loads(random_case(seed).scene.encode())
         path = tmp_path / "scene.json"
         path.write_text(json.dumps(in_other_words(document, np.random.default_rng([seed, 5]))))
         calls.add(f"document {seed}", load(path), text=path.read_text())
@@ -180,7 +181,7 @@ def test_turned_calls(tmp_path: Path, azimuth: float, elevation: float) -> None:
     scene = load("teapot", size=96)
     scene = evolve(scene, lights=[*scene.lights, Light.spot((2, 2, 2), (-1, -1, -1), "orange", 10, 40)])
     turned = {"azimuth": azimuth, "elevation": elevation}
-    (call,) = calls_made([{"name": "render", "text": encode_scene_file(scene).decode(), "turn": turned}], tmp_path)
+    (call,) = calls_made([{"name": "render", "text": scene.encode().decode(), "turn": turned}], tmp_path)
     found = decode_bmp(dynamic(chain().call("Renderer", call).output), 96, 96)
     right = np.cross(scene.camera.target - scene.camera.eye, scene.camera.up)
     way = multiply(from_axis_angle(right, elevation), from_axis_angle((0, 1, 0), -azimuth))

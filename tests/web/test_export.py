@@ -16,7 +16,7 @@ from creator_page import Tab
 from firefox import firefox
 from shackled import InputError, load, render
 from shackled.cli.app import run
-from shackled.scene import render_call
+from shackled.scene._codec import render_call
 
 VIEW = "document.querySelector('shackled-view')"
 READY = f"Boolean({VIEW}.picture || {VIEW}.shadowRoot.querySelector('.error').textContent)"

@@ -18,11 +18,11 @@ from tools.page_server import static
 from creator_page import PATIENCE, Tab
 from nodes import ANVIL, Reply, anvil, needs_anvil, result, serving
 from shackled import Scene, load, render
-from shackled.ethereum import to_hex
+from shackled.ethereum._encoding import to_hex
 from shackled.gas import profile
-from shackled.scene import encode_scene_file, render_call
+from shackled.scene._codec import render_call
 from shackled.studio import store_scene
-from shackled.web import asset
+from shackled.web._page import asset
 
 #: All that a page with the element needs; the page of a site needs less, since its scripts are files.
 POLICY = "default-src 'none'; script-src 'unsafe-inline' 'wasm-unsafe-eval'; worker-src blob:; connect-src *"
@@ -260,7 +260,7 @@ def test_what_is_shown_and_what_is_told(show: Opener) -> None:
         assert "\n" not in said
     image, other = render(scene()), load("icons/diamond", size=32)
     assert view.after(view.dropped(image.encode(".png")))["sha256"] == image.sha256
-    text = encode_scene_file(other).decode()
+    text = other.encode().decode()
     assert view.after(view.set("view.scene = argument", text))["sha256"] == render(other).sha256
     # what takes too long is stopped; the next is drawn
     view.run("view.setAttribute('timeout', '150')")
@@ -380,7 +380,7 @@ def test_a_page_of_files(browser: Any, tmp_path: Path, workers: str) -> None:
         assert poster.is_visible()
         # what is shown in place of another before the EVM is there starts no second worker
         for _ in range(2):
-            view.evaluate("(view, text) => { view.scene = text }", encode_scene_file(scene()).decode())
+            view.evaluate("(view, text) => { view.scene = text }", scene().encode().decode())
         for route in held:
             route.continue_()
         page.unroute("**/evm.wasm")

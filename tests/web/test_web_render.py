@@ -12,7 +12,7 @@ from pictures import chain, dynamic
 from shackled import load
 from shackled.errors import RenderError
 from shackled.gas import profile, render_call
-from shackled.scene import LookOptions
+from shackled.scene._settings import LookOptions
 
 NAMES = ("teapot", "icons/crown", "icons/diamond", "genesis/0", "genesis/7")
 

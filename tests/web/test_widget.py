@@ -12,7 +12,7 @@ from typing import Any
 import pytest
 
 from shackled import load, render
-from shackled.scene import render_call
+from shackled.scene._codec import render_call
 
 pytest.importorskip("anywidget")
 WIDGET = "application/vnd.jupyter.widget-view+json"

@@ -17,11 +17,13 @@ from numpy.typing import NDArray
 from PIL import Image as PillowImage
 
 from shackled.artifacts import artifact
-from shackled.chain import EmbeddedChain, describe_revert, open_chain
-from shackled.ethereum import word
-from shackled.evm import Instance, Status
+from shackled.chain import open_chain
+from shackled.chain._embedded import EmbeddedChain
+from shackled.chain._failures import describe_revert
+from shackled.ethereum._encoding import word
+from shackled.evm._instance import Instance, Status
 from shackled.library import Item, chosen_items, items
-from shackled.studio import STUDIO
+from shackled.studio._storage import STUDIO
 from tools.docs.draw_pictures import contact_sheet
 from tools.examples import compile_example
 from tools.pages import IMAGES

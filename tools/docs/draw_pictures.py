@@ -26,7 +26,9 @@ from shackled.datasets import teapot
 from shackled.datasets.common import builtin, shapes
 from shackled.datasets.genesis import generate, picture_on_chain, seed_of
 from shackled.datasets.icons import pieces as icons
-from shackled.scene import PRESETS, LookOptions, painted, stage
+from shackled.scene import PRESETS, stage
+from shackled.scene._settings import LookOptions
+from shackled.scene._staging import painted
 from shackled.stages import draw_stages
 from shackled.stages import strip as stages_strip
 from shackled.studio import make_apng

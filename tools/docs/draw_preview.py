@@ -12,11 +12,11 @@ import sys
 import tempfile
 from pathlib import Path
 
-from benchmarks.preview import ALL, Server, make_project
 from PIL import Image
 
 from tools.page_server import chromium
 from tools.pages import IMAGES
+from tools.tokens.tutorial import TOKENS, Server, make_project
 
 PICTURE = IMAGES / "preview.png"
 
@@ -32,7 +32,7 @@ def main() -> int:
                     break
             page = browser.new_page(viewport={"width": 1200, "height": 800})
             page.goto(server.url)
-            page.get_by_text(f"{ALL} tokens in").wait_for()
+            page.get_by_text(f"{TOKENS} tokens in").wait_for()
             page.wait_for_load_state("networkidle")
             shot = page.screenshot()
     Image.open(io.BytesIO(shot)).convert("P", palette=Image.Palette.ADAPTIVE, dither=Image.Dither.NONE).save(

@@ -21,7 +21,8 @@ from PIL import Image as PillowImage
 from shackled import Background, Camera, Light, Material, Mesh, Object, Scene, Texture, render
 from shackled.artifacts import artifact
 from shackled.datasets.common import shapes
-from shackled.scene import encode, fit
+from shackled.scene import encode
+from shackled.scene._in_range import in_range
 from tools.pages import IMAGES, ROOT
 
 #: Pixels of a canvas, and how much they are enlarged.
@@ -83,7 +84,7 @@ def canvas(
     things: list[Object], camera: Camera, *lights: Light, background: Background = SKY, antialias: bool = True
 ) -> Scene:
     """Return a scene of SIDE x SIDE pixels."""
-    return fit(Scene(things, camera, lights, background, width=SIDE, height=SIDE, antialias=antialias))
+    return in_range(Scene(things, camera, lights, background, width=SIDE, height=SIDE, antialias=antialias))
 
 
 #: By the names of the rules in tests/judge.

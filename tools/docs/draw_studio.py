@@ -10,7 +10,7 @@ from __future__ import annotations
 import numpy as np
 from PIL import Image as PillowImage
 
-from shackled.datasets import require
+from shackled.datasets._pieces import require
 from shackled.studio import store_scene
 from tools.examples import compile_example, picture, token_uri
 from tools.ledger import World

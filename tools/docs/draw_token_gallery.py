@@ -15,8 +15,8 @@ from pathlib import Path
 
 from PIL import Image
 
-from shackled.chain import VARIABLE
-from shackled.tokens import run_demo
+from shackled.chain._address_book import VARIABLE
+from shackled.tokens._demo import run_demo
 from tools.anvil import Anvil, find_anvil
 from tools.page_server import chromium
 from tools.pages import IMAGES

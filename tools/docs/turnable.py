@@ -13,7 +13,7 @@ from mkdocs.structure.pages import Page
 from mkdocs.utils import get_relative_url
 
 from shackled import InputError, Scene, load
-from shackled.web import ASSETS, asset
+from shackled.web._page import ASSETS, asset
 
 #: The folder of the site with the files of <shackled-view>.
 FOLDER = "assets/shackled"

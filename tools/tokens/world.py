@@ -22,7 +22,7 @@ from eth_abi.exceptions import DecodingError
 from eth_utils.abi import collapse_if_tuple
 
 from shackled.artifacts import artifact
-from shackled.ethereum import intrinsic_gas
+from shackled.ethereum._encoding import intrinsic_gas
 
 #: EIP-2935: the contract that knows the hashes of blocks, and its code.
 HISTORY = "0x0000f90827f1c53a10cb7a02335b175320002935"

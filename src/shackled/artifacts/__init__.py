@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import InputError
-from ..ethereum import SOLIDITY_ERRORS, Errors, Interface, error_table
+from ..ethereum._abi import SOLIDITY_ERRORS, Errors, Interface, error_table
 
 #: The contracts that render.
 RENDERER = (

@@ -9,9 +9,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from attrs import evolve
 
-from ..datasets import require
+from ..datasets._pieces import require
 from ..datasets.common import builtin
-from ..scene import resize
+from ..scene._look import resize
 from ._measure import cost, picture
 from ._original import PAPER_CULLED, PAPER_CULLING_RATIO, PAPER_UNCULLED, original
 from ._report import FOURTH, OURS, ExperimentReport, millions, table

@@ -5,10 +5,10 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from ..artifacts import RENDERER, artifact
-from ..chain import DEFAULT_GAS_LIMIT, RevmChain
-from ..deploy import STANDARD
-from ..ethereum import intrinsic_gas
-from ..evm import Instance
+from ..chain._embedded import DEFAULT_GAS_LIMIT, RevmChain
+from ..deploy._contract import STANDARD
+from ..ethereum._encoding import intrinsic_gas
+from ..evm._instance import Instance
 from ._original import CODE_SIZES, DEPLOYMENT_GAS, PAPER_DEPLOYMENT_ETHER
 from ._report import ORIGINAL, OURS, Cell, ExperimentReport, millions, table
 from ._runner import Runner

@@ -8,12 +8,12 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from ..datasets import require
+from ..datasets._pieces import require
 from ._measure import cost
 from ._original import Measured, original
 from ._report import ORIGINAL, OURS, THIRD, ExperimentReport, millions, table
 from ._runner import Runner
-from .fits import Column, fit
+from .regression import Column, fit
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

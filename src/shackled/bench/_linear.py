@@ -8,12 +8,14 @@ from typing import TYPE_CHECKING
 import numpy as np
 from PIL import Image as PillowImage
 
-from ..scene import Light, Material, Scene
+from ..scene._light import Light
+from ..scene._object import Material
+from ..scene._scene import Scene
 from ._measure import cost, picture
 from ._original import original, original_gas
 from ._report import FOURTH, ORIGINAL, OURS, THIRD, ExperimentReport, millions, ratio, table
 from ._runner import Runner
-from .fits import Column, LinearFit, fit, quadratic_share
+from .regression import Column, LinearFit, fit, quadratic_share
 from .scenes import GLOSSY, MATTE, SUN, UNLIT, cube, equal_triangles, square, turned_cube
 
 if TYPE_CHECKING:

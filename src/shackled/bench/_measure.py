@@ -8,9 +8,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..artifacts import artifact
-from ..chain import CallResult, open_chain
+from ..chain._chain import CallResult
+from ..chain._opening import open_chain
 from ..image import decode_bmp
-from ..scene import Rectangle, Scene, encode
+from ..scene._codec import Rectangle, encode
+from ..scene._scene import Scene
 
 
 @dataclass(frozen=True)

@@ -16,7 +16,7 @@ from typing import TYPE_CHECKING, Any
 
 from PIL import Image as PillowImage
 
-from ..whole_file import make_output_folder, write_output
+from ..base.whole_file import make_output_folder, write_output
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure

@@ -10,7 +10,7 @@ from collections.abc import Callable, Iterable
 from importlib import import_module
 from typing import TypeVar
 
-from ..workers import each
+from ..base.workers import each
 from ._report import ExperimentReport
 
 Item = TypeVar("Item")

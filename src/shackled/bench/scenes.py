@@ -10,8 +10,14 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from ..scene import Background, Camera, Light, Material, Mesh, Object, Projection, Scene, from_euler, rotate
-from .fits import Column
+from ..scene._arithmetic import from_euler, rotate
+from ..scene._camera import Camera, Projection
+from ..scene._effects import Background
+from ..scene._light import Light
+from ..scene._mesh import Mesh
+from ..scene._object import Material, Object
+from ..scene._scene import Scene
+from .regression import Column
 
 NIGHT = Background((0, 0, 40), (0, 0, 160))
 SUN = Light("directional", (1, 2, 3))

@@ -9,9 +9,9 @@ import re
 from collections.abc import Mapping
 from pathlib import Path
 
+from ..base.whole_file import locked, write_whole
 from ..errors import InputError, OutputError
-from ..ethereum import checksum_address, parse_address
-from ..whole_file import locked, write_whole
+from ..ethereum._encoding import checksum_address, parse_address
 
 #: The environment variable with the path of the file.
 VARIABLE = "SHACKLED_ADDRESS_BOOK"

@@ -8,8 +8,9 @@ from typing import Any, Protocol
 
 from ..artifacts import artifact
 from ..errors import RenderError
-from ..ethereum import intrinsic_gas
-from ..scene import Rectangle, Scene, encode
+from ..ethereum._encoding import intrinsic_gas
+from ..scene._codec import Rectangle, encode
+from ..scene._scene import Scene
 
 
 @dataclass(frozen=True)

@@ -9,9 +9,9 @@ from concurrent.futures import ThreadPoolExecutor
 from typing import Any, TypeVar
 from urllib.parse import SplitResult, unquote, urlsplit
 
-from ..checks import number
+from ..base.checks import number
 from ..errors import ChainError, InputError, NoAnswerError, NodeBusyError, NodeError, WrongChainError
-from ..ethereum import to_hex
+from ..ethereum._encoding import to_hex
 from ._failures import rpc_failure
 
 #: Default and maximum timeout of an answer, in seconds.

@@ -18,8 +18,8 @@ from numpy.typing import NDArray
 
 from ..artifacts import artifact
 from ..errors import ChainError, RenderError
-from ..ethereum import create2_address, intrinsic_gas, to_hex, word
-from ..evm import Answer, Instance, Status
+from ..ethereum._encoding import create2_address, intrinsic_gas, to_hex, word
+from ..evm._instance import Answer, Instance, Status
 from ._chain import CallResult, ContractChain
 from ._failures import out_of_gas, revert_error
 

@@ -6,8 +6,8 @@ from functools import lru_cache
 
 from ..artifacts import artifact
 from ..errors import ChainError
-from ..ethereum import word
-from ..scene import WIREFRAME
+from ..ethereum._encoding import word
+from ..scene._codec import WIREFRAME
 from . import _layout as layout
 from ._chain import ContractChain, returned_bytes
 
@@ -18,7 +18,7 @@ EFFECTS, PLAIN = ("EffectsEngine", "Effects"), ("Engine", "FragmentEngine")
 
 @lru_cache(4)
 def engines(scene: bytes, chain: ContractChain) -> tuple[str, ...]:
-    """Return the contracts that may draw an ABI-encoded scene; those of plain scenes if it is none.
+    """Return the contracts that may draw an ABI-encoded scene; those of plain scenes if the bytes are no scene.
 
     Of the three for antialiased scenes only those that are needed: together they leave little space in a creation call.
     """

@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from ..artifacts import known_errors
+from ..base.untrusted import plain
 from ..errors import (
     ChainError,
     NodeBusyError,
@@ -20,8 +21,8 @@ from ..errors import (
     TooLargeError,
     WrongChainError,
 )
-from ..ethereum import Errors, decode_error, to_hex
-from ..untrusted import plain
+from ..ethereum._abi import Errors, decode_error
+from ..ethereum._encoding import to_hex
 
 #: Phrases of nodes, as lower-case letters only. The first group with a phrase that occurs in the message applies.
 TOO_LITTLE_GAS = """

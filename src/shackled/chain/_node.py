@@ -19,7 +19,7 @@ from ..errors import (
     TooLargeError,
     WrongChainError,
 )
-from ..ethereum import checksum_address, intrinsic_gas, to_hex, word
+from ..ethereum._encoding import checksum_address, intrinsic_gas, to_hex, word
 from ._address_book import AddressBook
 from ._chain import ContractCaller, NodeResult
 from ._connection import Connection

@@ -5,9 +5,9 @@ from __future__ import annotations
 from functools import cache
 from importlib.util import find_spec
 
-from ..checks import choice
+from ..base.checks import choice
 from ..errors import InputError
-from ..ethereum import parse_address
+from ..ethereum._encoding import parse_address
 from ._connection import PATIENCE, Connection
 from ._embedded import DEFAULT_GAS_LIMIT, EmbeddedChain, PyEvmChain, PyrevmChain, RevmChain
 from ._node import NodeChain

@@ -15,8 +15,8 @@ import requests
 import urllib3
 
 from .._version import __version__
+from ..base.untrusted import read_json
 from ..errors import NodeError, NodeTimeoutError, NodeUnreachableError
-from ..untrusted import read_json
 from ._failures import http_failure, too_large
 
 #: Timeout of connecting, in seconds.

@@ -9,9 +9,9 @@ from pathlib import Path
 
 import click
 
+from ..base.synonyms import HINTS, SYNONYMS
+from ..base.untrusted import plain
 from ..errors import InputError, InputWarning, ShackledError
-from ..untrusted import plain
-from ..words import INSTEAD, SAME
 from .command import CommandGroup
 from .option import MEANT, option_names, with_options
 from .output import noting
@@ -133,12 +133,12 @@ def _meant(error: click.ClickException) -> str | None:
         return None
     given, known = error.option_name, {name for each in error.ctx.command.params for name in each.opts}
     keyword = given.lstrip("-").replace("-", "_")
-    right = MEANT.get(given) or option_names().get((SAME["look"] | SAME["render"]).get(keyword, ""))
+    right = MEANT.get(given) or option_names().get((SYNONYMS["look"] | SYNONYMS["render"]).get(keyword, ""))
     if right in known:
         return f"no such option {given}: it is {right}"
     if len(given) == 2:
         return f"no such option {given}; before a file whose name begins with -, put --"
-    return f"no such option {given}: {INSTEAD[keyword]}" if keyword in INSTEAD and "--fov" in known else None
+    return f"no such option {given}: {HINTS[keyword]}" if keyword in HINTS and "--fov" in known else None
 
 
 def _drop_output() -> None:

@@ -5,9 +5,9 @@ from __future__ import annotations
 import sys
 from pathlib import Path
 
-from ..checks import choice
+from ..base.checks import choice
+from ..base.whole_file import check_output_folder
 from ..errors import InputError
-from ..whole_file import check_output_folder
 from .option import argument, option
 from .progress import LateBar
 
@@ -19,7 +19,8 @@ def bench(
     processes: int | None = option("--processes", "Number of processes; one per core by default.", "N", min=1),
 ) -> None:
     """Run the experiments of the Shackled paper: gas against canvas, triangles, culling and more."""
-    from ..bench import EXPERIMENTS, Runner, can_plot
+    from ..bench._report import can_plot
+    from ..bench._runner import EXPERIMENTS, Runner
 
     if not names and output is None:
         print("\n".join(f"{name:10} {text}" for name, text in EXPERIMENTS.items()))

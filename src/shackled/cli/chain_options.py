@@ -13,21 +13,24 @@ from typing import TYPE_CHECKING, Any
 
 import click
 
-from ..chain import PATIENCE, Connection
-from ..checks import number
+from ..base.checks import number
+from ..base.untrusted import plain
+from ..base.values import plural
+from ..base.whole_file import check_output_file, write_output
+from ..chain._connection import PATIENCE, Connection
 from ..errors import InputError
-from ..ethereum import GWEI, at_most, checksum_address, ether, parse_address, roughly
-from ..untrusted import plain
-from ..values import plural
-from ..whole_file import check_output_file, write_output
+from ..ethereum._amounts import GWEI, at_most, ether, roughly
+from ..ethereum._encoding import checksum_address, parse_address
 from .option import exclude, option
 from .output import print_json, print_note
 
 if TYPE_CHECKING:
     from eth_account.signers.local import LocalAccount
 
-    from ..deploy import Call, Plan, Quote, Receipt, Transactor
-    from ..tokens import Collection
+    from ..deploy._deployer import Plan
+    from ..deploy._quote import Call, Quote
+    from ..deploy._transactor import Receipt, Transactor
+    from ..tokens._collection import Collection
 
 #: The environment variable with the password of a keystore file.
 PASSWORD = "SHACKLED_PASSWORD"
@@ -119,14 +122,14 @@ class SignerOptions:
         """Raise InputError if two accounts were named, or if none can sign here."""
         exclude("--account", self.account, {"--private-key-env": self.private_key_env})
         if self.is_given:
-            from ..deploy import signer_class
+            from ..deploy._account import signer_class
 
             signer_class()
 
     @cached_property
     def signer(self) -> LocalAccount:
         """The account, opened once. InputError if none was named or it cannot be opened; messages never show a key."""
-        from ..deploy import environment_account, keystore_account, read_keystore
+        from ..deploy._account import environment_account, keystore_account, read_keystore
 
         self.check()
         if self.private_key_env is not None:
@@ -151,13 +154,13 @@ class PayerOptions(SignerOptions):
 
     def transactor(self, connection: Connection) -> Transactor:
         """Return a transactor of the account."""
-        from ..deploy import Transactor
+        from ..deploy._transactor import Transactor
 
         return Transactor(connection, self.signer, max_fee=self.max_fee)
 
     def send(self, collection: Collection, title: str, call: Call) -> Receipt:
         """Print the price of a transaction to a collection, ask for consent, and send it. title: what it does."""
-        from ..tokens import plan
+        from ..tokens._contract import plan
 
         transactor = self.transactor(collection.connection)
         quote = plan(transactor, call)

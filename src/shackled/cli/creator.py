@@ -14,13 +14,16 @@ from urllib.parse import quote
 from PIL import Image
 
 from .._load import load, locate
-from ..chain import book_path
-from ..datasets import Piece
+from ..base.local_server import Answer, listen, run, type_of
+from ..base.whole_file import make_output_folder
+from ..chain._address_book import book_path
+from ..datasets._pieces import Piece
 from ..datasets.genesis import seed_of
 from ..errors import InputError
-from ..local_server import Answer, listen, run, type_of
-from ..scene import READERS, SCENES, Link, encode_scene_file, is_inside
-from ..whole_file import make_output_folder
+from ..scene._files.beside import is_inside
+from ..scene._files.link import Link
+from ..scene._files.mesh_file import READERS
+from ..scene._files.scene_file import SCENES
 from .option import argument, option
 
 #: Default port.
@@ -80,7 +83,7 @@ def first_answers(input: str | None, page: Path) -> tuple[dict[str, Path | bytes
         return answers, ""
     source = locate(input)
     if isinstance(source, Link):
-        source.scene()
+        load(input)  # refuses a damaged one
         return answers, "#" + source.text.rpartition("#")[2]
     seed = re.fullmatch(r"genesis/(\d+)", input)
     # the page knows them by their seeds
@@ -89,7 +92,7 @@ def first_answers(input: str | None, page: Path) -> tuple[dict[str, Path | bytes
     packed = page / "data" / "pieces" / f"{name.replace('/', '-')}.gz"
     if isinstance(source, Piece) and not name.startswith("genesis/") and not packed.is_file():
         file = f"{source.name.rpartition('/')[2]}.json"
-        answers[f"input/{file}"] = encode_scene_file(load(source.name))
+        answers[f"input/{file}"] = load(source.name).encode()
         told = {"names": [file]}
     elif not isinstance(source, Piece):
         if not source.is_file():

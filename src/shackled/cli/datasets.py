@@ -10,10 +10,11 @@ from itertools import groupby, islice
 from pathlib import Path
 from typing import Any
 
-from ..checks import choice
-from ..datasets import DATASETS, Piece, PieceCost, cost, pieces
+from ..base.checks import choice
+from ..base.whole_file import check_output_file, write_output
+from ..datasets._drawing import PieceCost, cost
+from ..datasets._pieces import DATASETS, Piece, pieces
 from ..errors import InputError
-from ..whole_file import check_output_file, write_output
 from .option import argument, option
 from .progress import LateBar
 
@@ -78,7 +79,8 @@ def fetch(
     source: Path | None = option("--from", "A copy of the published file, to use instead of a download.", "FILE"),
 ) -> None:
     """Download third-party models, clean and simplify them, and store the result."""
-    from ..datasets.common import fetch, model
+    from ..datasets.common._fetch import fetch
+    from ..datasets.common._models import model
 
     if source is not None and len(names) != 1:
         raise InputError("--from needs exactly one NAME")
@@ -98,7 +100,7 @@ def gallery(
     jobs: int | None = option("--jobs", "Number of worker processes; one per core by default.", min=1),
 ) -> None:
     """Render all pieces into a self-contained HTML page or a contact sheet. Finished pictures are cached."""
-    from ..datasets import draw_all, page, sheet
+    from ..datasets._drawing import draw_all, page, sheet
 
     is_page = output.suffix.lower() == ".html"
     if not is_page and output.suffix.lower() != ".png":

@@ -6,9 +6,10 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..chain import PATIENCE, Connection
+from ..chain._connection import PATIENCE, Connection
 from ..errors import InputError
-from ..ethereum import GWEI, at_most, checksum_address, rounded
+from ..ethereum._amounts import GWEI, at_most, rounded
+from ..ethereum._encoding import checksum_address
 from .chain_options import (
     CALLDATA,
     NodeOptions,
@@ -22,7 +23,9 @@ from .option import option
 from .output import print_json, print_line, print_note, print_table
 
 if TYPE_CHECKING:
-    from ..deploy import Deployment, Plan, Receipt
+    from ..deploy._contract import Deployment
+    from ..deploy._deployer import Plan
+    from ..deploy._transactor import Receipt
 
 
 def deploy(
@@ -44,7 +47,9 @@ def deploy(
     rpc_timeout: float = option("--rpc-timeout", "Timeout of a call to the node.", "SECONDS", default=PATIENCE),
 ) -> None:
     """Deploy the contracts, at the same addresses on every chain. Prints the price first and skips what exists."""
-    from ..deploy import CONTRACTS, STANDARD, Deployer, current_fees, deployments
+    from ..deploy._contract import CONTRACTS, STANDARD, deployments
+    from ..deploy._deployer import Deployer
+    from ..deploy._quote import current_fees
 
     node.check()
     payer.check()
@@ -90,7 +95,7 @@ def deploy(
 
 def _write_verification(folder: Path, chain_id: int, wanted: Sequence[Deployment]) -> None:
     """Write the files for explorers, with one note for the contracts that are left out."""
-    from ..deploy import write_verification
+    from ..deploy._contract import write_verification
 
     left_out = write_verification(folder, chain_id, wanted)
     if left_out:

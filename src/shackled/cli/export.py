@@ -9,13 +9,13 @@ from pathlib import Path
 from typing import Any
 
 from .._load import locate
-from ..datasets import Piece
+from ..base.whole_file import check_output_file
+from ..datasets._pieces import Piece
 from ..errors import InputError
-from ..scene import Scene
-from ..studio import make_glb
-from ..web import check_page
-from ..web import export as write_page
-from ..whole_file import check_output_file
+from ..scene._scene import Scene
+from ..studio._files import make_glb
+from ..web._page import check_page
+from ..web._page import export as write_page
 from .look_options import INPUT, load_with
 from .option import option
 from .picture import tell_why_nothing

@@ -8,23 +8,20 @@ from itertools import count
 from pathlib import Path
 from typing import Any
 
-from ..chain import CHAINS, PATIENCE, NodeChain, open_chain, open_node
-from ..checks import number
+from ..base.checks import number
+from ..base.values import plural
+from ..base.whole_file import check_output_file, write_output
+from ..chain._connection import PATIENCE
+from ..chain._node import NodeChain
+from ..chain._opening import CHAINS, open_chain, open_node
 from ..errors import InputError
-from ..gas import (
-    KINDS,
-    STACK,
-    STAGES,
-    GasReport,
-    Profile,
-    SearchStep,
-    flame_graph,
-    make_report,
-    quick_path_note,
-    render_call,
-)
-from ..values import plural
-from ..whole_file import check_output_file, write_output
+from ..gas._flame_graph import flame_graph
+from ..gas._limits import render_call
+from ..gas._profile import KINDS, STACK, Profile
+from ..gas._quick_path import quick_path_note
+from ..gas._report import GasReport, make_report
+from ..gas._search import SearchStep
+from ..gas._stages import STAGES
 from .look_options import FIT, INPUT, load_with
 from .option import exclude, need, option
 from .output import print_json, print_line, print_table

@@ -6,7 +6,7 @@ import json
 
 from ..errors import InputError
 from ..image import FORMATS, check_output, one_of
-from ..scene import PICTURE
+from ..scene._files.picture import PICTURE
 from .option import argument, option
 
 

@@ -15,28 +15,20 @@ from numpy.typing import NDArray
 
 from .._load import is_model, load, locate
 from .._render import render
-from ..datasets import Piece
+from ..base.values import listed, plural
+from ..datasets._pieces import Piece
 from ..errors import ChainError, InputError, InputWarning, ShackledError
-from ..gas import headline
-from ..scene import (
-    GLTF,
-    READERS,
-    Axis,
-    Link,
-    Material,
-    Mesh,
-    Object,
-    Scene,
-    animations_of,
-    as_shown,
-    axis_of_format,
-    base_axis,
-    faces_of_all,
-    format_of,
-    is_closed,
-    read_model,
-)
-from ..values import listed, plural
+from ..gas._limits import headline
+from ..scene._canvas import as_shown
+from ..scene._files.content import format_of
+from ..scene._files.gltf.animation import animations_of
+from ..scene._files.link import Link
+from ..scene._files.mesh_file import GLTF, READERS, read_model
+from ..scene._mesh import Mesh, faces_of_all
+from ..scene._object import Material, Object
+from ..scene._scene import Scene
+from ..scene._staging import is_closed
+from ..scene._upright import Axis, axis_of_format, base_axis
 from .option import option, with_options
 from .output import print_json, print_line
 from .picture import Source, fits_of_made

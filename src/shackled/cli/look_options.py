@@ -11,21 +11,12 @@ from typing import Any
 import click
 
 from .._load import load, load_picture, locate
-from ..datasets import Piece
+from ..datasets._pieces import Piece
 from ..errors import InputError
-from ..scene import (
-    ALL,
-    INNER_ANGLE,
-    LIGHT_KINDS,
-    MAX_SIDE,
-    SETTINGS,
-    WHITE,
-    Kind,
-    Light,
-    Scene,
-    Setting,
-    checked_look,
-)
+from ..scene._light import INNER_ANGLE, LIGHT_KINDS, WHITE, Light
+from ..scene._scene import Scene
+from ..scene._settings import ALL, SETTINGS, Kind, Setting, checked_look
+from ..scene._staging import MAX_SIDE
 from .option import argument, option, parameter
 from .progress import LateBar
 
@@ -184,7 +175,7 @@ def load_with(input: str, look: dict[str, Any], fit: str | None = None, is_pictu
         print(source.notice, file=sys.stderr)
     if fit is None:
         return scene
-    from ..gas import fit_scene
+    from ..gas._fitting import fit_scene
 
     with LateBar("fitting"):
         fitted = fit_scene(scene, fit, look.get("crease"))

@@ -29,7 +29,7 @@ OPTIONS = {
     "urls": "--rpc",
 }
 
-#: Other words for commands and options than `shackled.words` has for keywords, and what is meant.
+#: Other words for commands and options than `shackled.base.synonyms` has for keywords, and what is meant.
 MEANT = {
     "mint": "store, which mints no token; `shackled token mint` does",
     "turntable": "render INPUT --turntable FRAMES",
@@ -135,7 +135,7 @@ def is_from_environment(name: str) -> bool:
 
 def option_names() -> dict[str, str]:
     """Return the options of parameters, those of a look too."""
-    from ..scene import SETTINGS
+    from ..scene._settings import SETTINGS
 
     return {setting.name: setting.option.partition("/")[0] for setting in SETTINGS} | OPTIONS
 

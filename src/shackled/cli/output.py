@@ -15,8 +15,8 @@ from typing import Any, Literal, cast
 
 import click
 
+from ..base.untrusted import plain
 from ..errors import InputWarning
-from ..untrusted import plain
 from .option import Option, with_options
 
 #: A number or a size, such as 1,024 x 768 or 1.2e-07, and not an address or a sentence.

@@ -11,22 +11,25 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from attrs import evolve
+
 from .._load import load_frames
-from .._on import Bounds, On, is_one_call, place_of
 from .._render import film as draw_film
-from .._render import pace
-from .._render import render as draw
-from .._render import turntable as turn
+from .._render import pace, picture, turn
 from .._visible import why_nothing
 from ..animation import DURATION, Animation, check_duration
-from ..chain import open_chain
+from ..base.values import plural
+from ..base.whole_file import make_output_folder
+from ..chain._opening import open_chain
 from ..errors import ChainError, renaming
-from ..gas import Fit, fits_as_json, fits_of, headline, render_call, suffices
+from ..gas._limits import Fit, fits_as_json, fits_of, headline, render_call
+from ..gas._search import suffices
 from ..image import MOST_COLORS, Image, colors, total
-from ..parallel import Listener, folder_of, remove_parts
-from ..scene import PICTURE, Scene, scene_chunk, shows_scene
-from ..values import plural
-from ..whole_file import make_output_folder
+from ..parallel._scheduler import Listener
+from ..parallel._store import folder_of, remove_parts
+from ..parallel.places import How
+from ..scene._files.picture import PICTURE, scene_chunk, shows_scene
+from ..scene._scene import Scene
 from .look_options import load_with
 from .option import exclude, need, option, with_options
 from .progress import LateBar
@@ -97,11 +100,8 @@ class Task:
     look: dict[str, Any]
     fit: str | None
     film: FilmOptions
-    transparent: bool
     scene: bool | None
-    on: On | None
-    gas_limit: int | None
-    tile: tuple[int, int] | None
+    how: How
     #: Whether triangles and lit pixels are counted, by a second call.
     count: bool = True
     #: Whether a file that shows the same scene is left as it is.
@@ -177,46 +177,42 @@ class Work:
     path: Path | None
     task: Task
 
-    def load(self) -> tuple[list[Scene], float] | Done:
-        """Return the scene, or the frames of an animation and its length in seconds; what was done if that is all."""
+    def load(self) -> tuple[list[Scene], int] | Done:
+        """Return the scene, or the frames of an animation, and their duration; what was done if that is all."""
         source, path, task = self.source, self.path, self.task
         with source.named():
             if task.film.frames is None:
-                scenes, length = [load_with(source.place, task.look, task.fit)], 0.0
+                scenes, length = [load_with(source.place, task.look, task.fit)], None
             else:
                 with LateBar("reading"):
                     scenes, length = load_frames(source.place, task.film.frames, **task.look)
         if task.scene:
             scene_chunk(scenes[0]).check()
-        if task.skip_existing and path is not None and shows_scene(path, scenes[0], task.transparent):
+        if task.skip_existing and path is not None and shows_scene(path, scenes[0], task.how.transparent):
             return Done({"input": source.name, "output": str(path), "skipped": True})
         if path is not None:
             make_output_folder(path.parent)
-        return scenes, length
+        if task.film.duration is not None:
+            return scenes, task.film.duration
+        return scenes, DURATION if length is None else pace(length, len(scenes))
 
     def render(self, listener: Listener) -> Done:
         """Render the input to the file."""
         loaded = self.load()
         if isinstance(loaded, Done):
             return loaded
-        (scene, *_), length = loaded
-        path, task, film = self.path, self.task, self.task.film
-        place, bounds = place_of(task.on), Bounds(task.gas_limit, task.tile)
-        in_parts = not film.one_call and (film.is_film or not is_one_call(place, scene, bounds))
+        scenes, duration = loaded
+        scene, path, task, film = scenes[0], self.path, self.task, self.task.film
+        in_parts = not film.one_call and (film.is_film or not task.how.is_one_call(scene))
         keep = folder_of(path) if in_parts and path is not None else None
-        told: dict[str, Any] = {"gas_limit": task.gas_limit, "tile": task.tile, "listener": listener, "keep": keep}
-        told |= {"on": task.on, "transparent": task.transparent}
+        how = evolve(task.how, listener=listener, keep=keep)
         started = time.perf_counter()
         made: Image | Animation
         with nullcontext() if in_parts else LateBar("rendering"):
-            if film.frames is not None:
-                shown = pace(length, film.frames) if film.duration is None else film.duration
-                made = draw_film(loaded[0], shown, place, bounds, listener, keep, task.transparent)
-            elif film.turntable is not None:
-                shown = DURATION if film.duration is None else film.duration
-                made = turn(scene, film.turntable, duration=shown, one_call=film.one_call, **told)
+            if film.turntable is not None:
+                made = turn(scene, film.turntable, duration, how, film.one_call)
             else:
-                made = draw(scene, **told)
+                made = picture(scene, how) if film.frames is None else draw_film(scenes, duration, how)
         try:
             done = self.write(made, scene, started)
         except BaseException:

@@ -5,15 +5,16 @@ from __future__ import annotations
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ..base.untrusted import plain
 from ..errors import VerificationError
-from ..ethereum import checksum_address
-from ..untrusted import plain
+from ..ethereum._encoding import checksum_address
 from .option import argument, need, option
 from .output import print_json, print_line, print_note, print_table
 from .progress import LateBar
 
 if TYPE_CHECKING:
-    from ..preview import Project, Request, Token
+    from ..preview._preview import Request, Token
+    from ..preview._project import Project
 
 #: Default port of the page.
 PORT = 8090
@@ -55,7 +56,10 @@ def preview(
     browser: bool = option("--browser/--no-browser", "Open the page in the browser.", default=True),
 ) -> None:
     """Show the tokens of a Solidity contract, and their gas, on a page that updates when a source changes."""
-    from ..preview import Project, Request, serve, stored_scene
+    from ..preview._preview import Request
+    from ..preview._project import Project
+    from ..preview._server import serve
+    from ..preview._world import stored_scene
 
     need("--check", check, {"--json": as_json})
     project = Project(source)
@@ -74,7 +78,9 @@ def preview(
 
 def _check(project: Project, request: Request, as_json: bool) -> None:
     """Check all tokens. VerificationError if one of them has a problem."""
-    from ..preview import CompilerError, Preview, folded, summary
+    from ..preview._preview import Preview
+    from ..preview._project import CompilerError
+    from ..preview._report import folded, summary
 
     found: list[Token] = []
     with LateBar("reading tokens") as bar:

@@ -7,7 +7,7 @@ import sys
 import threading
 import time
 
-from ..parallel import Listener, Outline
+from ..parallel._scheduler import Listener, Outline
 from .option import with_options
 
 #: Seconds before a bar is shown, and between two pictures of it.

@@ -12,13 +12,14 @@ from typing import Any
 
 from PIL import Image as PillowImage
 
-from .._on import VERIFY, Bounds, Cluster, Nodes, On, Processes, place_of
 from ..animation import FORMATS as FILMS
-from ..chain import CHAINS, PATIENCE, open_chain
+from ..base.whole_file import check_output_folder, make_output_folder, write_output
+from ..chain._connection import PATIENCE
+from ..chain._opening import CHAINS, open_chain
 from ..errors import InputError
 from ..image import FORMATS, check_alpha, one_of
-from ..scene import PICTURE
-from ..whole_file import check_output_folder, make_output_folder, write_output
+from ..parallel.places import VERIFY, Cluster, How, Nodes, On, Processes
+from ..scene._files.picture import PICTURE
 from .look_options import FIT, INPUT, load_with, parse_sides
 from .option import exclude, is_from_environment, need, option
 from .picture import FilmOptions, Task, Work
@@ -123,9 +124,7 @@ def render(
         if transparent:
             for extension in extensions:
                 check_alpha(extension, FILMS if film.is_film else FORMATS)
-        on = where.on(is_from_environment("rpc"))
-        place_of(on)
-        Bounds(where.gas_limit, where.tile)
+        how = How(where.on(is_from_environment("rpc")), where.gas_limit, where.tile, transparent=transparent)
         if where.evm is not None:
             open_chain(where.evm)
         parts = {"--tile": where.tile, "--gas-limit": where.gas_limit}
@@ -140,7 +139,7 @@ def render(
             raise InputError(f"--skip-existing needs {PICTURE} files, which say what they show, not {paths[0] or '-'}")
         is_batch = len(sources) > 1
         count = as_json or not (quiet or is_batch)
-        task = Task(look, fit, film, transparent, scene, on, where.gas_limit, where.tile, count, skip_existing)
+        task = Task(look, fit, film, scene, how, count, skip_existing)
         work = [Work(source, path, task) for source, path in zip(sources, paths, strict=True)]
         if is_batch or shard is not None:
             first, step = shard or (1, 1)

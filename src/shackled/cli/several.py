@@ -19,15 +19,19 @@ from typing import Literal, TypeVar
 from attrs import evolve
 
 from .._load import locate
-from .._on import Cluster, Processes
-from .._render import render as draw
+from .._render import picture
 from ..animation import check_animation
-from ..datasets import Piece
+from ..base.untrusted import plain
+from ..base.workers import each
+from ..datasets._pieces import Piece
 from ..errors import InputError, InputWarning, ShackledError
 from ..image import check_output
-from ..scene import PICTURE, READERS, Link, format_by_name, is_pipe, read_pipe, stored
-from ..untrusted import plain
-from ..workers import each
+from ..parallel.places import Cluster, Processes
+from ..scene._files.content import is_pipe, read_pipe, stored
+from ..scene._files.link import Link
+from ..scene._files.mesh_file import READERS
+from ..scene._files.picture import PICTURE
+from ..scene._files.signatures import format_by_name
 from .option import argument, with_options
 from .output import Action, action, noting, print_note
 from .picture import Done, Source, Work
@@ -178,12 +182,13 @@ def render_all(work: Sequence[Work], report: Report) -> None:
 
 def _outcomes(work: Sequence[Work], bar: LateBar) -> Iterator[tuple[int, Outcome]]:
     """Yield the number of each input and what became of it, as they are done."""
-    jobs, on = 1, work[0].task.on if work else None
+    jobs, on = 1, work[0].task.how.on if work else None
     if isinstance(on, Cluster) and on.verify is None and not work[0].task.film.is_film:
         return enumerate(_on_cluster(work, on, bar))
     if isinstance(on, Processes):
         # a process for each input, instead of several for the parts of one
-        jobs, work = on.count, [replace(each, task=replace(each.task, on=on.evm)) for each in work]
+        how = evolve(work[0].task.how, on=on.evm)
+        jobs, work = on.count, [replace(each, task=replace(each.task, how=how)) for each in work]
     return each(partial(_render, action()), work, jobs, lambda error: (error, ""))
 
 
@@ -194,10 +199,10 @@ def _render(notes: Action, work: Work) -> Outcome:
 
 def _on_cluster(work: Sequence[Work], on: Cluster, bar: LateBar) -> Iterator[Outcome]:
     """Read inputs and write pictures here, in order, and draw each picture whole on a worker of a cluster."""
-    from ..parallel import ClusterBackend
+    from ..parallel._cluster import ClusterBackend
 
     task, notes = work[0].task, action()
-    drawn = partial(draw, on=on.evm, transparent=task.transparent, gas_limit=task.gas_limit, tile=task.tile)
+    drawn = partial(picture, how=evolve(task.how, on=on.evm))
 
     def begun(each: Work) -> Callable[[], Outcome]:
         """Read an input, and have it drawn; return what waits for the picture and writes it."""
@@ -217,7 +222,7 @@ def _on_cluster(work: Sequence[Work], on: Cluster, bar: LateBar) -> Iterator[Out
 
         return ended
 
-    with closing(ClusterBackend(on.address, on.evm, task.gas_limit)) as backend:
+    with closing(ClusterBackend(on.address, on.evm, task.how.gas_limit)) as backend:
         waiting = deque[Callable[[], Outcome]]()
         for each in work:
             waiting.append(begun(each))

@@ -6,12 +6,12 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from .._load import is_model, load, locate
-from ..chain import Connection
-from ..datasets import Piece
+from ..chain._connection import Connection
+from ..datasets._pieces import Piece
 from ..errors import InputError
-from ..ethereum import checksum_address
+from ..ethereum._encoding import checksum_address
 from ..image import FORMATS, check_output, one_of
-from ..scene import ALL
+from ..scene._settings import ALL
 from .chain_options import (
     CALLDATA,
     JSON,
@@ -28,8 +28,8 @@ from .output import print_json, print_line, print_note, print_table
 from .progress import LateBar
 
 if TYPE_CHECKING:
-    from ..deploy import Quote
-    from ..tokens import StoragePlan
+    from ..deploy._quote import Quote
+    from ..tokens._storage import StoragePlan
 
 
 def store(
@@ -54,8 +54,9 @@ def store(
 
     Prints the price first; cannot be undone.
     """
-    from ..deploy import current_fees
-    from ..tokens import SceneToStore, licence_of, plan_storage, read_back, token_scene
+    from ..deploy._quote import current_fees
+    from ..tokens._icons import licence_of, token_scene
+    from ..tokens._storage import SceneToStore, plan_storage, read_back
 
     exclude("--calldata", calldata, {"--output": output})
     path = None if output is None else check_output(output)
@@ -118,7 +119,7 @@ def store(
 
 def list_(node: NodeOptions, as_json: bool = JSON) -> None:
     """List the items: bounds, triangles, bytes, gas to store, pointers; with --rpc, whether they are stored."""
-    from ..chain import read_all
+    from ..chain._connection import read_all
     from ..library import items
 
     stored: dict[str, bool] = {}
@@ -166,9 +167,9 @@ def store_items(
     as_json: bool = JSON,
 ) -> None:
     """Store items of the library on a chain. Skips stored items; prints the price first; cannot be undone."""
-    from ..deploy import current_fees
+    from ..deploy._quote import current_fees
     from ..library import chosen_items
-    from ..tokens import SceneToStore, plan_storage
+    from ..tokens._storage import SceneToStore, plan_storage
 
     node.check()
     payer.check()
@@ -210,7 +211,7 @@ def _send(
 
     named: the transactions by their purpose, for a wallet. more: of the JSON.
     """
-    from ..tokens import store as send
+    from ..tokens._storage import store as send
 
     if storage.parts.missing:
         names = ", ".join(step.name for step in storage.parts.missing)

@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from pathlib import Path
 
 from ..errors import InputError
-from ..scene import MAX_BYTES, stored
+from ..scene._files.content import MAX_BYTES, stored
 
 #: What stands for standard input, and for standard output.
 STREAM = "-"

@@ -25,12 +25,13 @@ from PIL.PngImagePlugin import PngInfo
 from platformdirs import user_cache_path
 
 from ..artifacts import RENDERER, artifact
-from ..chain import open_chain
+from ..base.whole_file import write_whole
+from ..base.workers import each
+from ..chain._opening import open_chain
 from ..errors import InputError
 from ..image import data_uri, decode_bmp, pillow_bytes
-from ..scene import encode, resize
-from ..whole_file import write_whole
-from ..workers import each
+from ..scene._codec import encode
+from ..scene._look import resize
 from ._pieces import Piece, require
 
 #: The environment variable that names the cache folder.

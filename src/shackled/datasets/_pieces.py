@@ -9,10 +9,10 @@ from importlib import import_module
 from typing import Any
 
 from ..errors import InputError
-from ..scene import Scene
+from ..scene._scene import Scene
 
-#: The datasets; the names of pieces begin with them and a slash, except those of the common ones.
-DATASETS = ("common", "icons", "genesis")
+#: The datasets, with their modules; the names of pieces begin with them and a slash, except those of the common ones.
+DATASETS = {"common": ".common._models", "icons": ".icons._icons", "genesis": ".genesis"}
 #: How alike a name must be, from 0 to 1, to be what was meant.
 CLOSE = 0.7
 
@@ -94,4 +94,4 @@ def require(name: str) -> Piece:
 
 
 def _module(dataset: str) -> Any:
-    return import_module(f".{dataset}", __package__)
+    return import_module(DATASETS[dataset], __package__)

@@ -11,8 +11,8 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from ..checks import whole
-from ..scene import Mesh
+from ..base.checks import whole
+from ..scene._mesh import Mesh
 from .common import shapes
 
 Profile = tuple[tuple[float, float], ...]

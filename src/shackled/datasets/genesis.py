@@ -10,11 +10,16 @@ from typing import Any
 import numpy as np
 
 from ..artifacts import artifact
-from ..chain import CallResult, Drawing, open_chain
+from ..chain._chain import CallResult, Drawing
+from ..chain._opening import open_chain
 from ..errors import InputError, RenderError
-from ..ethereum import intrinsic_gas, keccak256
-from ..image import Image
-from ..scene import Background, Light, Material, Mesh, Object, Scene
+from ..ethereum._encoding import intrinsic_gas, keccak256
+from ..image import Image, render_whole
+from ..scene._effects import Background
+from ..scene._light import Light
+from ..scene._mesh import Mesh
+from ..scene._object import Material, Object
+from ..scene._scene import Scene
 from ._pieces import Piece
 
 COUNT = 1024
@@ -89,7 +94,6 @@ def generate_on_chain(seed: bytes) -> tuple[GenesisPiece, int]:
 
 def picture_on_chain(piece: GenesisPiece) -> Image:
     """Return the picture of a piece, 128 x 128 pixels, made by one call from its seed alone."""
-    from .._render import render_whole
 
     def draw(_: Scene) -> Drawing:
         result, data = call("render", piece.seed), artifact(CONTRACT).interface.encode("render", piece.seed)

@@ -7,8 +7,8 @@ import re
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from ..base.untrusted import read_json
 from ..errors import InputError, not_installed
-from ..untrusted import read_json
 
 if TYPE_CHECKING:
     from eth_account import Account

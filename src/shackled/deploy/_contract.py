@@ -9,10 +9,11 @@ from importlib.resources import files
 from pathlib import Path
 
 from ..artifacts import RENDERER, artifact, standard_input
-from ..chain import EmbeddedChain, open_chain
+from ..base.whole_file import make_output_folder, write_output
+from ..chain._embedded import EmbeddedChain
+from ..chain._opening import open_chain
 from ..errors import ChainError, InputError
-from ..ethereum import PROXY, SALT, checksum_address, create2_address, intrinsic_gas
-from ..whole_file import make_output_folder, write_output
+from ..ethereum._encoding import PROXY, SALT, checksum_address, create2_address, intrinsic_gas
 
 #: The contracts that `shackled deploy` deploys by default; each follows those that it calls.
 STANDARD = (

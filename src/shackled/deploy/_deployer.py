@@ -6,9 +6,11 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 
-from ..chain import AddressBook, Connection, read_all
+from ..chain._address_book import AddressBook
+from ..chain._connection import Connection, read_all
 from ..errors import ChainError, NoAnswerError, TransactionError, WrongChainError
-from ..ethereum import PROXY, checksum_address, rounded, to_hex
+from ..ethereum._amounts import rounded
+from ..ethereum._encoding import PROXY, checksum_address, to_hex
 from ._contract import PROXY_CODE, Deployment
 from ._quote import Call, Fees, Quote, current_fees, make_quotes
 from ._transactor import Receipt, Transactor

@@ -7,9 +7,10 @@ from dataclasses import dataclass, field, replace
 from functools import partial
 from typing import Any
 
-from ..chain import Connection, read_all
+from ..chain._connection import Connection, read_all
 from ..errors import TransactionError
-from ..ethereum import GWEI, to_hex, word
+from ..ethereum._amounts import GWEI
+from ..ethereum._encoding import to_hex, word
 
 #: Numerator and denominator of the margin of gas limits, since the chain's state changes: 5 %.
 MARGIN = (21, 20)

@@ -8,7 +8,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
-from ..chain import Connection, quantity, revert_error
+from ..chain._connection import Connection, quantity
+from ..chain._failures import revert_error
 from ..errors import (
     ChainError,
     NoAnswerError,
@@ -19,7 +20,8 @@ from ..errors import (
     RevertError,
     TransactionError,
 )
-from ..ethereum import GWEI, checksum_address, rounded, to_hex
+from ..ethereum._amounts import GWEI, rounded
+from ..ethereum._encoding import checksum_address, to_hex
 from ._quote import Call, Fees, Quote, current_fees, make_quote, rollup_fee, with_rollup_fees
 
 if TYPE_CHECKING:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from ..checks import integer
+from ..base.checks import integer
 from ..errors import ChainError, InputError
 from . import _compiled
 from ._module import address_space, start

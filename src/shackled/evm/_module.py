@@ -17,8 +17,8 @@ from weakref import WeakSet
 
 from platformdirs import user_cache_path
 
+from ..base.whole_file import write_whole
 from ..errors import ChainError
-from ..whole_file import write_whole
 
 if TYPE_CHECKING:
     import wasmtime

@@ -12,12 +12,14 @@ from typing import Literal
 
 from attrs import evolve
 
-from ..chain import open_chain
-from ..checks import choice
+from ..base.checks import choice
+from ..base.values import listed
+from ..chain._opening import open_chain
 from ..errors import InputError, OutOfGasError
-from ..ethereum import intrinsic_gas
-from ..scene import Scene, has_effects, simplify_scene
-from ..values import listed
+from ..ethereum._encoding import intrinsic_gas
+from ..scene._codec import has_effects
+from ..scene._scene import Scene
+from ..scene._simplify import simplify_scene
 from ._limits import ENVELOPE, MAX_TRANSACTION, Limit, floor_gas, known_chains, limits, render_call
 
 #: What a picture is to fit, by the place whose limit it is: one transaction on Ethereum or on another chain, or a read

@@ -10,10 +10,11 @@ from importlib.resources import files
 from typing import Any
 
 from .._load import Thing, load_picture
-from ..chain import ContractChain, open_chain
-from ..ethereum import intrinsic_gas
-from ..scene import render_call as render_call
-from ..values import listed
+from ..base.values import listed
+from ..chain._chain import ContractChain
+from ..chain._opening import open_chain
+from ..ethereum._encoding import intrinsic_gas
+from ..scene._codec import render_call as render_call
 
 #: EIP-150: a call passes on all but one 64th of the gas that is left.
 KEPT = 64

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from typing import TypeVar
 
 from ..artifacts import artifact
-from ..scene import Scene
+from ..scene._scene import Scene
 from ._limits import render_call
 from ._source_map import source_map
 from ._stages import STAGES

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from collections import Counter
 
-from ..scene import Scene, has_effects
-from ..values import listed, plural
+from ..base.values import listed, plural
+from ..scene._codec import has_effects
+from ..scene._scene import Scene
 
 
 def missed_quick_path(scene: Scene) -> dict[str, int]:

@@ -6,8 +6,9 @@ from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from ..chain import ContractChain, NodeChain
-from ..scene import Scene
+from ..chain._chain import ContractChain
+from ..chain._node import NodeChain
+from ..scene._scene import Scene
 from ._limits import ExactGas, Fit, fits_as_json, fits_of, measure, render_call
 from ._profile import Profile, profile
 from ._quick_path import missed_quick_path

@@ -9,9 +9,11 @@ from threading import Timer
 
 from attrs import evolve
 
-from ..chain import RevmChain
+from ..chain._embedded import RevmChain
 from ..errors import ShackledError
-from ..scene import Rectangle, Scene, simplify_scene
+from ..scene._codec import Rectangle
+from ..scene._scene import Scene
+from ..scene._simplify import simplify_scene
 
 #: Seconds after which is told what was found so far.
 PATIENCE = 20.0

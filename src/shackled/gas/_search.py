@@ -5,7 +5,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from ..chain import DEFAULT_GAS_LIMIT, ContractChain, NodeChain
+from ..chain._chain import ContractChain
+from ..chain._embedded import DEFAULT_GAS_LIMIT
+from ..chain._node import NodeChain
 from ..errors import OutOfGasError
 
 #: The first limit that is tried; it is doubled until it suffices.

@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..artifacts import artifact
-from ..chain import CallResult, RevmChain
+from ..chain._chain import CallResult
+from ..chain._embedded import RevmChain
 from ._source_map import source_map
 from ._stages import REST, STAGES, stages_of
 

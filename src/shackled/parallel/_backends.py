@@ -6,8 +6,12 @@ import random
 from dataclasses import dataclass
 from typing import Protocol
 
-from ..chain import Chain, Drawing, RevmChain, open_chain, out_of_gas
-from ..scene import Rectangle, Scene
+from ..chain._chain import Chain, Drawing
+from ..chain._embedded import RevmChain
+from ..chain._failures import out_of_gas
+from ..chain._opening import open_chain
+from ..scene._codec import Rectangle
+from ..scene._scene import Scene
 
 #: Where a sample is verified: one part in so many, besides the first one of each backend.
 SAMPLE = 8

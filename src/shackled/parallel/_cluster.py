@@ -11,10 +11,12 @@ from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
-from ..chain import Drawing, open_chain
+from ..base.values import plural
+from ..chain._chain import Drawing
+from ..chain._opening import open_chain
 from ..errors import InputError, RenderError, ShackledError, not_installed
-from ..scene import Rectangle, Scene
-from ..values import plural
+from ..scene._codec import Rectangle
+from ..scene._scene import Scene
 from ._backends import ChainBackend
 from ._store import contracts_digest
 

@@ -8,9 +8,10 @@ from dataclasses import dataclass
 
 from attrs import evolve
 
-from ..chain import open_chain
+from ..chain._opening import open_chain
 from ..image import decode_bmp
-from ..scene import Rectangle, Scene
+from ..scene._codec import Rectangle
+from ..scene._scene import Scene
 from ._tiles import LARGE
 
 #: The longer sides of the small pictures, in pixels: large enough that most faces cover a pixel.

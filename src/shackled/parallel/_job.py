@@ -5,21 +5,21 @@ from __future__ import annotations
 import time
 from collections.abc import Sequence
 from contextlib import ExitStack
-from pathlib import Path
 
 import numpy as np
 
-from .._on import Bounds, Nodes, On, Place, place_of
-from ..chain import Drawing
+from ..chain._chain import Drawing
 from ..errors import caller
 from ..image import Image, decode_bmp, total
-from ..scene import Rectangle, Scene
+from ..scene._codec import Rectangle
+from ..scene._scene import Scene
 from ._backends import SAMPLE, Backend, Part, Verifier
 from ._bands import BAND_PIXELS
 from ._estimate import Estimate, estimate
 from ._scheduler import Listener, Outline, Scheduler
 from ._store import PartStore
 from ._tiles import area, cut, grid
+from .places import How, Nodes
 
 #: Parts for each slot, so that all are busy until the end, and the extra gas that this may cost.
 PARTS_PER_SLOT = 4
@@ -30,34 +30,24 @@ LEAST_PIXELS = 1024
 MOST_PIXELS = 1 << 22
 #: Pictures that take less gas are compared whole, which takes a second or two.
 COMPARED_GAS = 500_000_000
-#: The bounds of calls where none were given.
-UNBOUNDED = Bounds()
+HERE = How()
 
 
-def render_frames(
-    frames: Sequence[Scene],
-    on: On | Place | None = None,
-    bounds: Bounds = UNBOUNDED,
-    listener: Listener | None = None,
-    keep: Path | None = None,
-) -> list[Image]:
-    """Render frames of equal size. on: as in `render`.
-
-    keep: a folder for finished parts, so that an interrupted job can be continued; the caller removes it.
-    """
-    listener, place = listener or Listener(), place_of(on)
+def render_frames(frames: Sequence[Scene], how: How = HERE) -> list[Image]:
+    """Render frames of equal size. The folder `keep` of finished parts remains: the caller removes it."""
+    listener, place = how.listener or Listener(), how.on
     listener.place = caller()
     started = time.perf_counter()
     with ExitStack() as stack:
         stack.callback(listener.ended)
-        backends = place.open(listener, bounds.gas_limit)
+        backends = place.open(listener, how.gas_limit)
         for backend in backends:
             stack.callback(backend.close)
         expected = estimate(frames[0])
-        tiles = plan(frames[0], len(frames), backends, expected, bounds.tile)
+        tiles = plan(frames[0], len(frames), backends, expected, how.tile)
         parts = [Part(number, tile) for number in range(len(frames)) for tile in tiles]
         verifier, compared = choose_verifier(backends, expected, place.verify)
-        store = None if keep is None else PartStore(keep, frames, compared)
+        store = None if how.keep is None else PartStore(how.keep, frames, compared)
         count = len(frames)
         listener.planned(Outline(len(parts), count, count * expected.area, count * expected.gas(len(tiles))))
         if not compared and place.verify is None and len(parts) > 1:

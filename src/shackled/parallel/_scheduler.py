@@ -15,7 +15,7 @@ from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from dataclasses import dataclass, field
 
-from ..chain import Drawing
+from ..chain._chain import Drawing
 from ..errors import (
     ChainError,
     NodeBusyError,
@@ -29,7 +29,7 @@ from ..errors import (
     warn,
 )
 from ..image import decode_bmp
-from ..scene import Scene
+from ..scene._scene import Scene
 from ._backends import Backend, Part, Verifier
 from ._store import PartStore
 from ._tiles import area, halves

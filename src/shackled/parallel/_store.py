@@ -13,11 +13,13 @@ from contextlib import suppress
 from pathlib import Path
 
 from ..artifacts import RENDERER, artifact
-from ..chain import Drawing
+from ..base.whole_file import make_output_folder, write_output
+from ..chain._chain import Drawing
 from ..errors import ChainError, InputError
 from ..image import decode_bmp
-from ..scene import Scene, encode_scene, fit
-from ..whole_file import make_output_folder, write_output
+from ..scene._codec import encode_scene
+from ..scene._in_range import in_range
+from ..scene._scene import Scene
 from ._backends import Part
 
 SUFFIX = ".part"
@@ -54,7 +56,7 @@ class PartStore:
         """
         self.folder = folder
         self._frames = frames
-        self._scenes = [hashlib.sha256(encode_scene(fit(scene))).digest() for scene in frames]
+        self._scenes = [hashlib.sha256(encode_scene(in_range(scene))).digest() for scene in frames]
         self._salt = contracts_digest() + bytes([compared])
         make_output_folder(folder)
 

@@ -10,7 +10,8 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from ..scene import Rectangle, Scene
+from ..scene._codec import Rectangle
+from ..scene._scene import Scene
 
 #: From so many pixels on, pictures are cut into strips to save gas: a fifth of that of plain flat models at 1024 x 1024
 #: pixels, half at 2048 x 2048, but less than a tenth at 768 x 768, where a picture of one call is worth more.

@@ -4,7 +4,3 @@
 `_document` judges what a token returns, `_preview` does all of it for one state of the sources, and `_server` shows it
 on a page that follows the sources.
 """
-
-import lazy_loader
-
-__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

@@ -8,10 +8,12 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from ..deploy import CONTRACTS
+from ..base.untrusted import read_json
+from ..deploy._contract import CONTRACTS
 from ..errors import InputError
-from ..ethereum import ETHER, GWEI, Interface, parse_address, whole_numbers
-from ..untrusted import read_json
+from ..ethereum._abi import Interface, whole_numbers
+from ..ethereum._amounts import ETHER, GWEI
+from ..ethereum._encoding import parse_address
 from ._project import Compiled
 
 CALL = re.compile(

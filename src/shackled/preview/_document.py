@@ -14,9 +14,9 @@ import numpy as np
 from PIL import Image as PillowImage
 from PIL import UnidentifiedImageError
 
+from ..base.untrusted import plain, read_json
 from ..errors import VerificationError
-from ..tokens import MAX_LENGTH, read_data_uri
-from ..untrusted import plain, read_json
+from ..tokens._metadata import MAX_LENGTH, read_data_uri
 from ._needs import gltf_problems, html_problems, svg_problems
 
 #: Media types of pictures, and Pillow's names of them; SVG is read as XML.

@@ -9,9 +9,9 @@ from html.parser import HTMLParser
 from typing import Any
 from xml.etree import ElementTree
 
+from ..base.untrusted import plain, read_json
 from ..errors import VerificationError
-from ..tokens import read_data_uri
-from ..untrusted import plain, read_json
+from ..tokens._metadata import read_data_uri
 
 #: Addresses within the file itself, or of nothing that is loaded.
 INSIDE = re.compile(r"#|data:|blob:|about:|javascript:|$", re.IGNORECASE)

@@ -11,9 +11,10 @@ from itertools import islice
 from typing import Any
 
 from ..errors import InputError
-from ..ethereum import Interface, intrinsic_gas
-from ..evm import Status
-from ..gas import quick_path_note
+from ..ethereum._abi import Interface
+from ..ethereum._encoding import intrinsic_gas
+from ..evm._instance import Status
+from ..gas._quick_path import quick_path_note
 from ._arguments import parse_call
 from ._document import Document, judge, judge_picture, unicode_fault
 from ._project import Compiled, Project

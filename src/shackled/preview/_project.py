@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import InputError
-from ..ethereum import keccak256
+from ..ethereum._encoding import keccak256
 
 #: Files in the folder of a project, the most telling first.
 MARKS = ("foundry.toml", "hardhat.config.js", "hardhat.config.ts", "hardhat.config.cjs", "remappings.txt")

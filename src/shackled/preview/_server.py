@@ -11,9 +11,9 @@ from queue import SimpleQueue
 from threading import Event, Lock, Thread
 from typing import Any
 
+from ..base.local_server import Answer, listen, run, type_of
+from ..base.untrusted import plain
 from ..errors import ShackledError
-from ..local_server import Answer, listen, run, type_of
-from ..untrusted import plain
 from ._document import HTML
 from ._preview import Preview, Request, Token
 from ._project import CompilerError, Project

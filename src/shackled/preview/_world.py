@@ -11,15 +11,18 @@ from itertools import count
 
 from .._load import is_model, load, locate
 from ..artifacts import known_errors
-from ..chain import RevmChain, describe_revert
-from ..datasets import Piece
-from ..deploy import CONTRACTS, deployments
+from ..chain._embedded import RevmChain
+from ..chain._failures import describe_revert
+from ..datasets._pieces import Piece
+from ..deploy._contract import CONTRACTS, deployments
 from ..errors import InputError
-from ..ethereum import Errors, error_table, intrinsic_gas, keccak256, word
-from ..evm import Answer, Instance, Status
-from ..scene import Scene, read_call
-from ..studio import STUDIO, store_scene
-from ..tokens import token_scene
+from ..ethereum._abi import Errors, error_table
+from ..ethereum._encoding import intrinsic_gas, keccak256, word
+from ..evm._instance import Answer, Instance, Status
+from ..scene._decode import read_call
+from ..scene._scene import Scene
+from ..studio._storage import STUDIO, store_scene
+from ..tokens._icons import token_scene
 from ._arguments import Call, constructor_arguments, contract_of
 from ._project import Compiled
 

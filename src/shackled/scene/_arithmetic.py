@@ -12,7 +12,7 @@ import math
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..checks import Floats, number, vector
+from ..base.checks import Floats, number, vector
 from ..errors import InputError
 
 Array = NDArray[np.float64]

@@ -8,10 +8,10 @@ from typing import Any
 from attrs import field, frozen
 from numpy.typing import ArrayLike
 
-from ..checks import Floats, choice, number, optional_number, vector
+from ..base.checks import Floats, choice, number, optional_number, vector
+from ..base.synonyms import Given, with_synonyms
+from ..base.values import Value
 from ..errors import InputError
-from ..values import Value
-from ..words import Given, with_words, words_of
 from ._arithmetic import tangent
 from ._fields import FIELDS
 from ._fields import Projection as Projection
@@ -42,7 +42,7 @@ def half_height_in(given: Mapping[str, Any], orthographic: bool) -> float | None
     return half_height_of(given["fov"])
 
 
-@words_of("fov", read=_with_fov)
+@with_synonyms("fov", read=_with_fov)
 @frozen(field_transformer=from_table)
 class Camera(Value):
     """A camera anywhere in a right-handed world with +y up.
@@ -71,7 +71,7 @@ class Camera(Value):
             raise InputError(f"the camera's near distance must be above 0 for a perspective camera, not {self.near!r}")
 
     @classmethod
-    @with_words
+    @with_synonyms()
     def perspective(
         cls,
         eye: ArrayLike = _EYE,

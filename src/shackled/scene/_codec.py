@@ -15,12 +15,12 @@ from attrs import evolve
 from numpy.typing import ArrayLike
 
 from ..artifacts import artifact
-from ..checks import Color
+from ..base.checks import Color
 from ..errors import InputError
 from . import _records as record
 from ._arithmetic import cosine
 from ._files.table import about
-from ._fit import fit
+from ._in_range import in_range
 from ._object import Object
 from ._packed import pack, pack_alpha, pack_texture
 from ._scene import Scene
@@ -62,7 +62,7 @@ def encode(selector: bytes, scene: Scene, tile: Rectangle | None = None, *words:
         if not (across and 0 <= tile.y < tile.y + tile.height <= scene.height):
             raise InputError(f"the tile {tile} does not lie on the canvas of {scene.width} x {scene.height} pixels")
     head = [*(tile or ()), *words]
-    return selector + _words([32 * (1 + len(head)), *head]) + encode_scene(fit(scene))
+    return selector + _words([32 * (1 + len(head)), *head]) + encode_scene(in_range(scene))
 
 
 def render_call(scene: Scene) -> bytes:
@@ -71,7 +71,7 @@ def render_call(scene: Scene) -> bytes:
 
 
 def encode_scene(scene: Scene) -> bytes:
-    """Return the struct Scene of a scene from `fit`."""
+    """Return the struct Scene of a scene from `in_range`."""
     camera = scene.camera
     head = _words(
         [
@@ -99,7 +99,7 @@ def encode_scene(scene: Scene) -> bytes:
 
 def has_effects(scene: Scene) -> bool:
     """Return whether the EffectsEngine draws a scene: by a record behind that of antialiasing, as in Renderer.sol."""
-    return any(kind > record.ANTIALIAS for kind, _ in _records(fit(scene)))
+    return any(kind > record.ANTIALIAS for kind, _ in _records(in_range(scene)))
 
 
 def extensions(scene: Scene) -> bytes:
@@ -172,7 +172,7 @@ def _record(kind: int, index: int, content: bytes) -> bytes:
 
 
 def encode_object(o: Object) -> bytes:
-    """Return the struct Object of an object from `fit`."""
+    """Return the struct Object of an object from `in_range`."""
     material = o.material
     fields = [
         *_q32([*o.position, *o.rotation, o.scale]),

@@ -11,7 +11,7 @@ import numpy as np
 from attrs import evolve
 
 from ..artifacts import artifact
-from ..checks import number
+from ..base.checks import number
 from ..errors import InputError
 from . import _records as record
 from ._camera import Camera

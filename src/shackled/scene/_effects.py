@@ -10,7 +10,7 @@ from typing import Any, TypeVar
 
 from attrs import Factory, field, frozen
 
-from ..checks import Color, color, flag, instance, number, whole
+from ..base.checks import Color, color, flag, instance, number, whole
 from ..errors import InputError
 from ._table import USUAL, from_table
 

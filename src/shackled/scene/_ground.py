@@ -9,7 +9,7 @@ import numpy as np
 from attrs import evolve, field, frozen
 from numpy.typing import ArrayLike
 
-from ..checks import Color, Floats, color, optional_number, vector
+from ..base.checks import Color, Floats, color, optional_number, vector
 from ..errors import InputError
 from ._arithmetic import length
 from ._mesh import Mesh

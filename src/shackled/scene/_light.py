@@ -8,10 +8,10 @@ from typing import Any, TypeVar
 from attrs import field, frozen
 from numpy.typing import ArrayLike
 
-from ..checks import Color, Floats, choice, color, flag, instance, number, optional_vector, vector
+from ..base.checks import Color, Floats, choice, color, flag, instance, number, optional_vector, vector
+from ..base.synonyms import Given, with_synonyms
+from ..base.values import Value, checked
 from ..errors import InputError
-from ..values import Value, checked
-from ..words import Given, with_words, words_of
 from ._constants import MAX_LIGHTS as MAX_LIGHTS
 from ._fields import FIELDS
 from ._fields import LIGHT_KINDS as LIGHT_KINDS
@@ -22,7 +22,7 @@ from ._table import USUAL, from_table
 INNER_ANGLE, OUTER_ANGLE = (float(FIELDS["Light"][name].default) for name in ("inner_angle", "outer_angle"))
 WHITE = (255, 255, 255)
 
-Part = TypeVar("Part")
+Item = TypeVar("Item")
 
 
 _TOWARD = "toward=, the way from the scene to the light, or direction=, the way in which its light travels"
@@ -44,7 +44,7 @@ def _of_words(given: Given) -> Given:
     return given
 
 
-@words_of("toward", "position", read=_of_words)
+@with_synonyms("toward", "position", read=_of_words)
 @frozen(field_transformer=from_table)
 class Light(Value):
     """One light; a scene has up to four. `Light.directional`, `Light.point` and `Light.spot` make one of each kind.
@@ -85,7 +85,7 @@ class Light(Value):
             )
 
     @classmethod
-    @with_words
+    @with_synonyms()
     def directional(
         cls,
         *unnamed: object,
@@ -105,13 +105,13 @@ class Light(Value):
         return cls("directional", color=color, shadow=shadow, **given)
 
     @classmethod
-    @with_words
+    @with_synonyms()
     def point(cls, position: ArrayLike, color: ArrayLike | str = WHITE, *, shadow: bool = False) -> Light:
         """Return a light that shines in all directions from a position, (3,) in the world; it does not fade."""
         return cls("point", position, color, shadow=shadow)
 
     @classmethod
-    @with_words
+    @with_synonyms()
     def spot(
         cls,
         position: ArrayLike,
@@ -136,7 +136,7 @@ def lights_of(value: Light | Iterable[Light] | None) -> tuple[Light, ...]:
     return tuple(instance(part, f"lights[{index}] of a scene", Light) for index, part in enumerate(lights))
 
 
-def parts_of(parts: Iterable[Part], name: str, kind: str) -> list[Part]:
+def parts_of(parts: Iterable[Item], name: str, kind: str) -> list[Item]:
     """Return parts of a scene as a list. InputError for what is none; name, kind: of the parts, for the message."""
     try:
         if not isinstance(parts, str | Mapping):

@@ -7,9 +7,9 @@ from collections.abc import Mapping, Sequence
 from typing import Any, Unpack
 
 import numpy as np
-from attrs import evolve
+from attrs import evolve, frozen
 
-from ..checks import Color, Floats
+from ..base.checks import Color, Floats
 from ..errors import InputError
 from . import _constants as constant
 from ._arithmetic import IDENTITY, dot, length, multiply, rotate
@@ -20,7 +20,7 @@ from ._mesh import Mesh
 from ._object import Material, Object
 from ._presets import preset_of
 from ._scene import Scene
-from ._settings import ALL, LookOptions, Part, checked_look, settings_of, size_of
+from ._settings import ALL, LookOptions, ScenePart, checked_look, settings_of, size_of
 from ._simplify import simplify_scene
 from ._staging import (
     MESH_STAGING,
@@ -45,6 +45,7 @@ MOST_TWO_SIDED = 16384
 _FADED = 0.5
 #: The radius about the origin within which a staged model is, but for its strays; a little above 1 for rounding.
 _MODEL = 1 + 1e-6
+_NONE = np.zeros((0, 3))
 
 
 def stage(
@@ -61,6 +62,28 @@ def stage(
     return look_at(mesh, checked_look({"size": size, **look}), evolve(PLAIN, material=material or PLAIN.material))
 
 
+@frozen(eq=False)
+class _Staged:
+    """A scene on its way through the steps of `look_at`.
+
+    look: its settings. is_model: whether it is staged, and shaded as its normals say. view: from where a scene that is
+    staged is seen. is_framed: whether that view stays. has_strays: whether points are not to be seen. points: of the
+    shaded scene, (n, 3), that the camera shows.
+    """
+
+    scene: Scene
+    look: Mapping[str, Any]
+    is_model: bool = False
+    view: Viewpoint | None = None
+    is_framed: bool = False
+    has_strays: bool = False
+    points: Floats = _NONE
+
+    def camera(self) -> Camera:
+        """Return the camera that the look asks for; it shows the shadows of the lights, too."""
+        return _camera(self.scene, self.points, self.look, self.view, self.is_framed)
+
+
 def look_at(
     thing: Mesh | Sequence[Object] | Scene,
     look: Mapping[str, Any],
@@ -75,69 +98,92 @@ def look_at(
     """
     if of_file := _given(look, "file"):
         raise InputError(f"`{next(iter(of_file))}` is for what is read of one glTF file")
-    if isinstance(thing, Scene) and not look:
-        return thing
-    view, model = None, None
-    by_normals = staging.by_normals and not isinstance(thing, Scene)
     if isinstance(thing, Scene):
+        if not look:
+            return thing
         scene = turn(thing, look["rotate"]) if "rotate" in look else thing
-        width, height = look.get("size", (scene.width, scene.height))
-        scene = evolve(scene, width=width, height=height)
+        placed = _Staged(resize(scene, look.get("size", (scene.width, scene.height))), look)
     else:
-        parts = [Object(thing, material=staging.material)] if isinstance(thing, Mesh) else list(thing)
-        if by_normals and around is None:
-            parts, model = without_strays(parts, name)
-        if by_normals:
-            parts = wound(parts, name, split=not {"cull", "max_triangles"} & look.keys())
-        else:
-            parts = [evolve(each, cull=is_closed(each.mesh)) for each in parts]
-        width, height = look.get("size", (staging.side, staging.side))
-        Scene([], width=width, height=height)  # refuses a wrong size before anything is divided by it
-        rotation = look.get("rotate", IDENTITY)
-        if "up" in look and not {"eye", "target"} & look.keys():
-            # without a camera that it could tilt, it is a direction of the model
-            rotation = multiply(turned_up(look["up"]), rotation)
-            look = {name: value for name, value in look.items() if name != "up"}
-        if (points := model if around is None else around) is None:
-            points = np.concatenate([each.world_positions() for each in parts])
-        own = staging.view_of(rotate(rotation, points))
-        view = view_of(look, width, height, look.get("orthographic", False), own)
-        scene = _placed(parts, points, rotation, view, staging, width, height)
-    chosen = _given(look, "scene")
-    fog = chosen.pop("fog", scene.fog)
-    objects = [_object(*(_shaded(each, look) if by_normals else (each, look))) for each in scene.objects]
-    if by_normals and "two_sided" not in look:
+        placed = _place(thing, look, staging, name, around)
+    scene = _frame(_light(_shade(placed))).scene
+    most = look.get("max_triangles", ALL)
+    return scene if most == ALL else simplify_scene(scene, most, look.get("crease"))
+
+
+def _place(
+    thing: Mesh | Sequence[Object], look: Mapping[str, Any], staging: Staging, name: str, around: Floats | None
+) -> _Staged:
+    """Return the scene of a model, which has a bounding sphere of radius 1 about the origin."""
+    parts = [Object(thing, material=staging.material)] if isinstance(thing, Mesh) else list(thing)
+    points = around
+    if staging.by_normals and around is None:
+        parts, points = without_strays(parts, name)
+    has_strays = points is not None and around is None
+    if staging.by_normals:
+        parts = wound(parts, name, split=not {"cull", "max_triangles"} & look.keys())
+    else:
+        parts = [evolve(each, cull=is_closed(each.mesh)) for each in parts]
+    width, height = look.get("size", (staging.side, staging.side))
+    Scene([], width=width, height=height)  # refuses a wrong size before anything is divided by it
+    rotation = look.get("rotate", IDENTITY)
+    if "up" in look and not {"eye", "target"} & look.keys():
+        # without a camera that it could tilt, it is a direction of the model
+        rotation = multiply(turned_up(look["up"]), rotation)
+        look = {name: value for name, value in look.items() if name != "up"}
+    if points is None:
+        points = np.concatenate([each.world_positions() for each in parts])
+    view = view_of(look, width, height, look.get("orthographic", False), staging.view_of(rotate(rotation, points)))
+    scene = _in_unit_sphere(parts, points, rotation, view, staging, width, height)
+    return _Staged(scene, look, staging.by_normals, view, around is not None, has_strays)
+
+
+def _shade(placed: _Staged) -> _Staged:
+    """Return the scene with surfaces, tone and background as the look says, or as they suit the model."""
+    scene, look = placed.scene, placed.look
+    objects = [_object(*(_shading(each, look) if placed.is_model else (each, look))) for each in scene.objects]
+    if placed.is_model and "two_sided" not in look:
         is_small = sum(len(each.mesh.positions) for each in objects if not each.cull) <= MOST_TWO_SIDED
         objects = [evolve(each, two_sided=not each.cull and (each.two_sided or is_small)) for each in objects]
     tone = scene.tone
     if of_tone := _given(look, "tone"):
         changed = evolve(tone or Tone(), **of_tone)
         tone = None if changed == Tone() else changed
+    chosen = {name: value for name, value in _given(look, "scene").items() if name != "fog"}
+    if placed.is_model and "background" not in look:
+        chosen["background"] = contrasting(objects)
     scene = evolve(scene, objects=objects, tone=tone, **chosen)
     points = scene.world_positions()
-    if model is not None:  # without strays
+    if placed.has_strays:
         points = points[length(points) <= _MODEL]
         if scene.ground is not None:
             scene = evolve(scene, ground=scene.ground.settled(points))
-    if by_normals and "background" not in look:
-        scene = evolve(scene, background=contrasting(scene.objects))
+    return evolve(placed, scene=scene, points=points)
+
+
+def _light(shaded: _Staged) -> _Staged:
+    """Return the scene with the lights of the preset, and with their shadow."""
+    look, lights = shaded.look, shaded.scene.lights
     if "preset" in look and "lights" not in look:
-        seen = _camera(scene, points, look, view, is_framed=around is not None)
+        seen = shaded.camera()  # beside which they stand
         x, _, z = (seen.eye - seen.target).tolist()
-        casts = any(each.shadow for each in scene.lights)
-        scene = evolve(scene, lights=preset_of(look["preset"]).lights(math.degrees(math.atan2(x, z)), casts))
+        casts = any(each.shadow for each in lights)
+        lights = tuple(preset_of(look["preset"]).lights(math.degrees(math.atan2(x, z)), casts))
     if "shadow" in look:
-        lights = [evolve(light, shadow=look["shadow"] and number == 0) for number, light in enumerate(scene.lights)]
-        scene = evolve(scene, lights=lights)
-    camera = _camera(scene, points, look, view, is_framed=around is not None)
-    if model is not None and camera.near is None and camera.projection == "perspective":
+        lights = tuple(evolve(light, shadow=look["shadow"] and number == 0) for number, light in enumerate(lights))
+    return evolve(shaded, scene=evolve(shaded.scene, lights=lights))
+
+
+def _frame(lit: _Staged) -> _Staged:
+    """Return the scene with its camera, and with fog between the nearest and the farthest point that this shows."""
+    camera, fog = lit.camera(), lit.look.get("fog", lit.scene.fog)
+    if lit.has_strays and camera.near is None and camera.projection == "perspective":
         camera = evolve(camera, near=constant.NEAR_PART * (float(length(camera.eye)) + 1))
-    scene = evolve(scene, camera=camera, fog=_fog_between(camera, points, fog) if isinstance(fog, tuple) else fog)
-    most = look.get("max_triangles", ALL)
-    return scene if most == ALL else simplify_scene(scene, most, look.get("crease"))
+    if isinstance(fog, tuple):
+        fog = _fog_between(camera, lit.points, fog)
+    return evolve(lit, scene=evolve(lit.scene, camera=camera, fog=fog))
 
 
-def _placed(
+def _in_unit_sphere(
     objects: Sequence[Object], points: Floats, rotation: Floats, view: Viewpoint, staging: Staging, *size: int
 ) -> Scene:
     """Return a scene of the parts of a model; their places scale points, (n, 3), to a bounding sphere of radius 1."""
@@ -159,7 +205,7 @@ def _placed(
     )
 
 
-def _shaded(o: Object, look: Mapping[str, Any]) -> tuple[Object, Mapping[str, Any]]:
+def _shading(o: Object, look: Mapping[str, Any]) -> tuple[Object, Mapping[str, Any]]:
     """Return object and look with the shading that suits the normals, unless the look or the file says which."""
     mesh = o.mesh
     if o.material.shading == "unlit" or "crease" in look or look.get("shading", "smooth") != "smooth":
@@ -261,5 +307,5 @@ def _to_be_seen(scene: Scene, points: Floats) -> Floats:
     return np.concatenate(seen)
 
 
-def _given(look: Mapping[str, Any], part: Part) -> dict[str, Any]:
+def _given(look: Mapping[str, Any], part: ScenePart) -> dict[str, Any]:
     return {setting.name: look[setting.name] for setting in settings_of(part) if setting.name in look}

@@ -9,10 +9,10 @@ import numpy as np
 from attrs import field, frozen
 from numpy.typing import ArrayLike, NDArray
 
-from ..checks import Floats, Number, channels, fixed, rgba
+from ..base.checks import Floats, Number, channels, fixed, rgba
+from ..base.synonyms import with_synonyms
+from ..base.values import Value, checked, plural, with_names
 from ..errors import InputError
-from ..values import Value, checked, plural, with_names
-from ..words import words_of
 from ._arithmetic import units
 
 #: Limits of the contracts, which count vertices and faces in 16 bits.
@@ -108,7 +108,7 @@ def _colors(values: Colors | None) -> NDArray[np.uint8]:
     return fixed(levels, np.uint8)
 
 
-@words_of()
+@with_synonyms()
 @frozen(field_transformer=with_names, repr=False)
 class Mesh(Value):
     """A triangle mesh; counter-clockwise faces are seen from the front.

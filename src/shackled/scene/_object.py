@@ -9,10 +9,10 @@ import numpy as np
 from attrs import evolve, field, frozen
 from numpy.typing import ArrayLike
 
-from ..checks import Color, Floats, choice, color, flag, instance, number, vector, whole
+from ..base.checks import Color, Floats, choice, color, flag, instance, number, vector, whole
+from ..base.synonyms import Given, with_synonyms
+from ..base.values import Value, checked
 from ..errors import InputError
-from ..values import Value, checked
-from ..words import Given, words_of
 from ._arithmetic import ORTHOGONAL, matrix_of, quaternion_of, rotate, rotation_of
 from ._fields import Shading as Shading
 from ._mesh import Mesh, is_trimesh
@@ -26,7 +26,7 @@ def _texture(value: Texture | None) -> Texture | None:
     return None if value is None else instance(value, "the texture of a material", Texture)
 
 
-@words_of()
+@with_synonyms()
 @frozen(field_transformer=from_table)
 class Material:
     """Coefficients of Blinn-Phong shading, each 0..4; the exponent `shininess` 1..128, a whole number.
@@ -87,7 +87,7 @@ def _place(matrix: ArrayLike) -> Given:
     return {"position": m[:3, 3], "rotation": quaternion_of(m[:3, :3] / scale), "scale": scale}
 
 
-@words_of("color", "transform", read=_of_words)
+@with_synonyms("color", "transform", read=_of_words)
 @frozen(field_transformer=from_table)
 class Object(Value):
     """p = position + rotation(scale * v) for every vertex v of the mesh.

@@ -8,7 +8,7 @@ import numpy as np
 from attrs import evolve
 from numpy.typing import NDArray
 
-from ..checks import Floats
+from ..base.checks import Floats
 from ..errors import InputError
 from ._arithmetic import units
 from ._mesh import MAX_FACES, MAX_VERTICES, Mesh, vertex_normals

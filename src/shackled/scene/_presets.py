@@ -12,8 +12,8 @@ from typing import Any
 from attrs import Factory, field, frozen
 from attrs.converters import optional
 
-from .. import checks
-from ..checks import Color
+from ..base import checks
+from ..base.checks import Color
 from ._effects import Background, background_of
 from ._light import WHITE, Light
 from ._object import Material

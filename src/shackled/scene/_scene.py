@@ -10,14 +10,14 @@ from typing import Any
 import numpy as np
 from attrs import field, frozen
 
-from ..checks import Color, Floats, color, flag, instance, integer
+from ..base.checks import Color, Floats, color, flag, instance, integer
+from ..base.synonyms import Hinted, with_synonyms
+from ..base.values import plural
+from ..base.whole_file import check_output_file, write_output
 from ..errors import InputError
-from ..values import plural
-from ..whole_file import check_output_file, write_output
-from ..words import Words, words_of
 from ._camera import Camera
 from ._effects import Background, Fog, Hemisphere, Rim, Tone, background_of, fog_of, hemisphere_of, rim_of, tone_of
-from ._files.written import encode_scene_file
+from ._files.written import encode_document, fields_of
 from ._ground import Ground, ground_of
 from ._light import Light, lights_of, parts_of
 from ._mesh import Mesh, is_trimesh
@@ -44,9 +44,9 @@ def _side(value: int, name: str = "side", low: int = 1, high: int = 1) -> int:
     return side
 
 
-@words_of()
+@with_synonyms()
 @frozen(field_transformer=from_table, repr=False)
-class Scene(Words):
+class Scene(Hinted):
     """Objects, drawn in their order with one depth buffer, seen by a camera.
 
     objects: also a Mesh in place of an Object, or one alone.
@@ -110,8 +110,20 @@ class Scene(Words):
         points = self.world_positions()
         return np.stack([points.min(axis=0), points.max(axis=0)]) if len(points) else np.zeros((2, 3))
 
+    def encode(self) -> bytes:
+        """Return the bytes of a .json scene file, with its meshes inside, such that loading it gives the same scene."""
+        return encode_document(
+            {
+                "size": (self.width, self.height),
+                **fields_of(self, "scene"),
+                **({} if self.tone is None else {"tone": fields_of(self.tone, "tone")}),
+                "camera": self.camera,
+                "objects": self.objects,
+            }
+        )
+
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Write a scene file, .json, with its meshes inside, such that loading it gives the same scene.
+        """Write a scene file, .json, as `encode` returns it.
 
         InputError where the path is wrong, OutputError where the disk is full or fails.
         """
@@ -119,7 +131,7 @@ class Scene(Words):
         if path.suffix.lower() != ".json":
             hint = "; the command `shackled export` writes models" if path.suffix.lower() == ".glb" else ""
             raise InputError(f"the scene {path} must end in .json{hint}")
-        write_output(check_output_file(path, "scene"), encode_scene_file(self))
+        write_output(check_output_file(path, "scene"), self.encode())
 
     def __repr__(self) -> str:
         """Count in one line."""

@@ -9,9 +9,9 @@ from typing import Any, Final, Literal, TypedDict
 from attrs import Factory, evolve, field, frozen
 from numpy.typing import ArrayLike
 
-from ..checks import choice, color, flag, integer, number, vector, whole
+from ..base.checks import choice, color, flag, integer, number, vector, whole
+from ..base.synonyms import hint, understood
 from ..errors import InputError, KeywordError
-from ..words import in_our_words, instead_of
 from ._arithmetic import IDENTITY, multiply, rotation_of
 from ._camera import Camera
 from ._effects import (
@@ -35,7 +35,7 @@ from ._upright import upright
 
 #: What a setting is a field of; "camera" also has settings from which a camera is made, "file" those that say what is
 #: read of a glTF file.
-Part = Literal["scene", "camera", "object", "material", "tone", "file"]
+ScenePart = Literal["scene", "camera", "object", "material", "tone", "file"]
 _Plain = Literal["size", "whole", "count", "number", "vector", "rotation", "flag", "color", "choice", "entry"]
 Kind = _Plain | Literal["background", "lights", "hemisphere", "rim", "fog", "ground"]
 _ANY = (-math.inf, math.inf)
@@ -52,7 +52,7 @@ class Setting:
 
     name: str
     kind: Kind
-    part: Part | None
+    part: ScenePart | None
     text: str
     limits: tuple[float, float] = _ANY
     unit: str = ""
@@ -299,7 +299,7 @@ SETTINGS = tuple(
 )
 
 
-def settings_of(part: Part) -> list[Setting]:
+def settings_of(part: ScenePart) -> list[Setting]:
     """Return the settings that are fields of a part of a scene."""
     return [setting for setting in SETTINGS if setting.part == part]
 
@@ -366,11 +366,11 @@ def checked_look(options: Mapping[str, Any]) -> dict[str, Any]:
 
     InputError names the keyword that is wrong, or two that exclude each other, each in `backticks`.
     """
-    options = in_our_words("look", _taken_apart({name: value for name, value in options.items() if value is not None}))
+    options = understood("look", _taken_apart({name: value for name, value in options.items() if value is not None}))
     known = {setting.name: setting for setting in SETTINGS}
     for name in options:
         if name not in known:
-            raise KeywordError(f"{name!r} is not a keyword of a look; {instead_of(name, known)}", name)
+            raise KeywordError(f"{name!r} is not a keyword of a look; {hint(name, known)}", name)
     look = {name: known[name].check(value, f"`{name}`") for name, value in options.items()}
     shadings = {name for name in ("smooth", "unlit") if look.pop(name, False)} | {*filter(None, [look.get("shading")])}
     if len(shadings) > 1:

@@ -10,7 +10,7 @@ import numpy as np
 from attrs import evolve
 from numpy.typing import NDArray
 
-from ..checks import whole
+from ..base.checks import whole
 from ..errors import InputError
 from ._crease import smoothed
 from ._mesh import Mesh, components, proper, weld

@@ -10,10 +10,10 @@ import numpy as np
 from attrs import evolve, field, frozen
 from numpy.typing import ArrayLike, NDArray
 
-from .. import checks
-from ..checks import Color, Floats, number
+from ..base import checks
+from ..base.checks import Color, Floats, number
+from ..base.values import checked, with_names
 from ..errors import InputError
-from ..values import checked, with_names
 from ._arithmetic import cosine, dot, length, sine
 from ._camera import DEFAULT_HALF_HEIGHT, Camera, Projection, half_height_of
 from ._constants import LARGEST

@@ -7,9 +7,9 @@ from collections.abc import Sequence
 import numpy as np
 from attrs import evolve
 
-from ..checks import Floats
+from ..base.checks import Floats
+from ..base.values import plural
 from ..errors import warn
-from ..values import plural
 from ._mesh import face_normals, faces_of_all, part_of_faces
 from ._object import Object
 

@@ -6,7 +6,7 @@ from typing import Any, Final
 
 from attrs import Attribute
 
-from ..values import checked, with_names
+from ..base.values import checked, with_names
 from ._fields import FIELDS
 
 #: In place of a default: that of the table.

@@ -15,9 +15,9 @@ from attrs import field, frozen
 from numpy.typing import ArrayLike, NDArray
 from PIL import Image
 
-from ..checks import choice, fixed, whole
+from ..base.checks import choice, fixed, whole
+from ..base.values import Value
 from ..errors import InputError
-from ..values import Value
 from ._fields import FIELDS
 from ._fields import FILTERS as FILTERS
 from ._fields import WRAPS as WRAPS

@@ -8,7 +8,7 @@ import numpy as np
 from attrs import evolve
 from numpy.typing import ArrayLike, NDArray
 
-from ..checks import whole
+from ..base.checks import whole
 from ._arithmetic import dot, length, multiply, rotate, rotation_of
 from ._camera import Camera
 from ._scene import Scene

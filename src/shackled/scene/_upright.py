@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ..checks import Floats, vector
+from ..base.checks import Floats, vector
 from ..errors import InputError, warn
 from ._arithmetic import from_euler, unit
 from ._fields import AXES

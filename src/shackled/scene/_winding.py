@@ -8,8 +8,8 @@ import numpy as np
 from attrs import evolve
 from numpy.typing import NDArray
 
+from ..base.values import plural
 from ..errors import warn
-from ..values import plural
 from . import _constants as constant
 from ._arithmetic import dot
 from ._mesh import Mesh, components, face_normals, faces_of_all, part_of_faces

@@ -1,13 +1,8 @@
-from ._files import ContractFile, make_apng, make_glb
-from ._storage import ANIMATE, STUDIO, StoreTransaction, store_scene, stored_codes
+from ._files import make_apng, make_glb
+from ._storage import store_scene
 
 __all__ = [
-    "ANIMATE",
-    "STUDIO",
-    "ContractFile",
-    "StoreTransaction",
     "make_apng",
     "make_glb",
     "store_scene",
-    "stored_codes",
 ]

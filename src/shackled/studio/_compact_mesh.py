@@ -11,7 +11,7 @@ from collections import defaultdict, deque
 from dataclasses import dataclass
 
 from ..errors import InputError
-from ..scene import NORMALS, WIDE
+from ..scene._packed import NORMALS, WIDE
 
 #: First byte of a compact mesh. Packed meshes begin with 0 to 3.
 COMPACT = 0x10

@@ -2,51 +2,27 @@
 
 from __future__ import annotations
 
-import os
-from pathlib import Path
-
 import numpy as np
-from attrs import field, frozen
 from numpy.typing import ArrayLike
 
-from .._on import Nodes, On
 from ..animation import DURATION, check_duration
 from ..artifacts import artifact
-from ..chain import ContractChain, NodeChain, open_chain, open_node, returned_bytes
-from ..checks import vector, whole
+from ..base.checks import vector, whole
+from ..chain._chain import ContractChain, returned_bytes
+from ..chain._node import NodeChain
+from ..chain._opening import open_chain, open_node
+from ..contract_file import ContractFile
 from ..errors import InputError, VerificationError
-from ..ethereum import intrinsic_gas
-from ..image import data_uri
-from ..scene import Scene, encode
-from ..whole_file import check_output_file, write_output
+from ..ethereum._encoding import intrinsic_gas
+from ..parallel.places import Nodes, On
+from ..scene._codec import encode
+from ..scene._scene import Scene
 
 #: The most frames of an animated PNG file that a contract makes.
 MOST_FRAMES = 360
 #: The largest square that a pixel can become.
 MOST_SCALE = 8
 ONE = 1 << 32
-
-
-@frozen
-class ContractFile:
-    """A file, byte for byte as a contract made it.
-
-    gas: of the execution; None where it is not counted. made_by: the EVM or node.
-    """
-
-    content: bytes = field(repr=False)
-    media_type: str
-    gas: int | None
-    intrinsic_gas: int
-    made_by: str
-
-    def save(self, path: str | os.PathLike[str]) -> None:
-        """Write the file atomically."""
-        write_output(check_output_file(Path(path), "file"), self.content)
-
-    def data_uri(self) -> str:
-        """Return a URI that holds the file, as for the `animation_url` of a token."""
-        return data_uri(self.media_type, self.content)
 
 
 def make_apng(

@@ -9,10 +9,17 @@ import numpy as np
 from attrs import evolve
 
 from ..artifacts import artifact
-from ..chain import Connection, open_chain
+from ..chain._connection import Connection
+from ..chain._opening import open_chain
 from ..errors import InputError, VerificationError
-from ..ethereum import checksum_address, create2_address, decode_values, encode_values, intrinsic_gas, word
-from ..scene import Object, Scene, encode_scene, fit, pack, rotate
+from ..ethereum._abi import decode_values, encode_values
+from ..ethereum._encoding import checksum_address, create2_address, intrinsic_gas, word
+from ..scene._arithmetic import rotate
+from ..scene._codec import encode_scene
+from ..scene._in_range import in_range
+from ..scene._object import Object
+from ..scene._packed import pack
+from ..scene._scene import Scene
 from ._compact_mesh import compact, vertex_order
 
 STUDIO = "Studio"
@@ -72,7 +79,7 @@ def store_scene(
         raise InputError(f"an address has 20 bytes, not {len(studio)}")
     if position_bits is not None:
         scene = evolve(scene, objects=[quantize(o, position_bits) for o in scene.objects])
-    fitted = fit(scene)
+    fitted = in_range(scene)
     meshes = [compact(pack(o.mesh, o.material.shading == "smooth"), normal_bits) for o in fitted.objects]
     result: list[StoreTransaction] = []
     for number, mesh in enumerate(dict.fromkeys(meshes), 1):
@@ -127,7 +134,7 @@ def quantize(o: Object, bits: int) -> Object:
 
 
 def encode_with_pointers(scene: Scene, pointers: Sequence[bytes]) -> bytes:
-    """Encode the struct of a scene that `fit` made, with pointers in place of its meshes."""
+    """Encode the struct of a scene that `in_range` made, with pointers in place of its meshes."""
     kind = scene_struct()
     (struct,) = decode_values([kind], word(32) + encode_scene(scene))
     *others, objects, extensions = struct

@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from ..errors import InputError
-from ..ethereum import checksum_address, keccak256, parse_address, to_hex, word
+from ..ethereum._encoding import checksum_address, keccak256, parse_address, to_hex, word
 
 
 @dataclass(frozen=True)

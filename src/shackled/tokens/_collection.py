@@ -6,9 +6,10 @@ from dataclasses import dataclass
 from typing import Any
 
 from ..artifacts import artifact
-from ..chain import Connection, describe_revert
+from ..chain._connection import Connection
+from ..chain._failures import describe_revert
 from ..errors import InputError, NodeError, RevertError
-from ..ethereum import checksum_address, to_hex
+from ..ethereum._encoding import checksum_address, to_hex
 from ._contract import PHASES, Contract
 from ._metadata import MAX_LENGTH, Metadata, read_token_uri
 

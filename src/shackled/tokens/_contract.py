@@ -7,10 +7,15 @@ from contextlib import suppress
 from typing import Any
 
 from ..artifacts import artifact, known_errors
-from ..chain import Connection, describe_revert, metered
-from ..deploy import Call, Quote, Receipt, Transactor
+from ..chain._connection import Connection
+from ..chain._failures import describe_revert
+from ..chain._node import metered
+from ..deploy._quote import Call, Quote
+from ..deploy._transactor import Receipt, Transactor
 from ..errors import NoAnswerError, NodeError, OutOfGasError, RevertError, VerificationError
-from ..ethereum import checksum_address, decode_error, ether, intrinsic_gas, keccak256, to_hex
+from ..ethereum._abi import decode_error
+from ..ethereum._amounts import ether
+from ..ethereum._encoding import checksum_address, intrinsic_gas, keccak256, to_hex
 
 #: Approximate gas of each function, without the intrinsic gas of the transaction.
 USUAL_GAS = {

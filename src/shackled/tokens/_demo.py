@@ -8,11 +8,14 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ..chain import Connection
-from ..deploy import Call, Receipt, Transactor, local_chain, signer_class
+from ..base.whole_file import make_output_folder, write_output
+from ..chain._connection import Connection
+from ..deploy._account import signer_class
+from ..deploy._contract import local_chain
+from ..deploy._quote import Call
+from ..deploy._transactor import Receipt, Transactor
 from ..errors import InputError, VerificationError
-from ..ethereum import checksum_address
-from ..whole_file import make_output_folder, write_output
+from ..ethereum._encoding import checksum_address
 from ._allow_list import make_allow_list
 from ._collection import KINDS, Collection
 from ._contract import perform

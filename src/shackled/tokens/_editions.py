@@ -8,12 +8,14 @@ from functools import partial
 from typing import Any
 
 from ..artifacts import artifact
-from ..chain import Connection, Report, read_all
-from ..checks import whole
-from ..deploy import Call, local_chain
+from ..base.checks import whole
+from ..chain._connection import Connection, Report, read_all
+from ..deploy._contract import local_chain
+from ..deploy._quote import Call
 from ..errors import InputError, NodeError, OutOfGasError, RenderError, VerificationError
-from ..ethereum import amount, checksum_address, intrinsic_gas
-from ..studio import STUDIO
+from ..ethereum._amounts import amount
+from ..ethereum._encoding import checksum_address, intrinsic_gas
+from ..studio._storage import STUDIO
 from ._collection import EDITIONS, Collection
 from ._contract import find_events
 from ._icons import SCALE

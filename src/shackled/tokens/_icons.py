@@ -14,14 +14,17 @@ from typing import Any
 from attrs import evolve
 
 from ..artifacts import artifact
-from ..chain import read_all
-from ..checks import whole
-from ..datasets import Piece, find, pieces
-from ..deploy import Call, local_chain
+from ..base.checks import whole
+from ..chain._connection import read_all
+from ..datasets._pieces import Piece, find, pieces
+from ..deploy._contract import local_chain
+from ..deploy._quote import Call
 from ..errors import InputError
-from ..ethereum import amount, checksum_address
-from ..scene import Link, Scene
-from ..studio import STUDIO
+from ..ethereum._amounts import amount
+from ..ethereum._encoding import checksum_address
+from ..scene._files.link import Link
+from ..scene._scene import Scene
+from ..studio._storage import STUDIO
 from ._collection import Collection
 from ._contract import Contract
 

@@ -7,25 +7,14 @@ from dataclasses import dataclass
 from typing import Any
 
 from ..artifacts import artifact
-from ..chain import Connection
-from ..checks import whole
-from ..deploy import (
-    Call,
-    Deployer,
-    Deployment,
-    Fees,
-    Plan,
-    Quote,
-    Receipt,
-    Transactor,
-    create,
-    current_fees,
-    deployment,
-    in_order,
-    make_quotes,
-)
+from ..base.checks import whole
+from ..chain._connection import Connection
+from ..deploy._contract import Deployment, deployment, in_order
+from ..deploy._deployer import Deployer, Plan, create
+from ..deploy._quote import Call, Fees, Quote, current_fees, make_quotes
+from ..deploy._transactor import Receipt, Transactor
 from ..errors import InputError, VerificationError
-from ..ethereum import PROXY, checksum_address, create2_address, word
+from ..ethereum._encoding import PROXY, checksum_address, create2_address, word
 from ._collection import Collection, CollectionKind
 from ._icons import add_call, icons_of
 

@@ -16,10 +16,10 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image as PillowImage
 
+from ..base.untrusted import plain, read_json
+from ..base.whole_file import write_output
 from ..errors import VerificationError
 from ..image import Image
-from ..untrusted import plain, read_json
-from ..whole_file import write_output
 
 #: Maximum size of a `tokenURI` in bytes; marketplaces do not show longer ones.
 MAX_LENGTH = 100_000

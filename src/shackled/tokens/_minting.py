@@ -6,10 +6,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from ..deploy import Call
+from ..base.untrusted import read_json
+from ..deploy._quote import Call
 from ..errors import InputError
-from ..ethereum import checksum_address, encode_values, parse_address, to_hex
-from ..untrusted import read_json
+from ..ethereum._abi import encode_values
+from ..ethereum._encoding import checksum_address, parse_address, to_hex
 from ._allow_list import AllowList
 from ._collection import Collection
 from ._icons import icon_at

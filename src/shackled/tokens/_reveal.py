@@ -6,11 +6,11 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from ..chain import Connection, quantity
-from ..deploy import Call, Fees, Quote, make_quotes
+from ..base.values import plural
+from ..chain._connection import Connection, quantity
+from ..deploy._quote import Call, Fees, Quote, make_quotes
 from ..errors import InputError, NoAnswerError, NodeError, RevertError, TransactionError
-from ..ethereum import encode_header, keccak256, to_hex
-from ..values import plural
+from ..ethereum._encoding import encode_header, keccak256, to_hex
 from ._collection import Collection
 from ._contract import simulate
 

@@ -7,25 +7,16 @@ from dataclasses import dataclass
 from functools import partial
 
 from .._render import render
-from ..chain import Connection, read_all
-from ..deploy import (
-    Call,
-    Deployer,
-    Fees,
-    Plan,
-    Quote,
-    Receipt,
-    Transactor,
-    create,
-    current_fees,
-    in_order,
-    make_quotes,
-)
+from ..chain._connection import Connection, read_all
+from ..deploy._contract import in_order
+from ..deploy._deployer import Deployer, Plan, create
+from ..deploy._quote import Call, Fees, Quote, current_fees, make_quotes
+from ..deploy._transactor import Receipt, Transactor
 from ..errors import VerificationError
-from ..ethereum import checksum_address
+from ..ethereum._encoding import checksum_address
 from ..image import Image, decode_bmp
-from ..scene import Scene
-from ..studio import STUDIO, StoreTransaction, store_scene
+from ..scene._scene import Scene
+from ..studio._storage import STUDIO, StoreTransaction, store_scene
 from ._contract import Contract
 
 #: The Studio has two functions called `render`.

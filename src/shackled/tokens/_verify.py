@@ -7,11 +7,12 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from ..artifacts import artifact
-from ..chain import CHAIN_ID, EmbeddedChain
-from ..deploy import Deployer, deployment, local_chain
+from ..chain._embedded import CHAIN_ID, EmbeddedChain
+from ..deploy._contract import deployment, local_chain
+from ..deploy._deployer import Deployer
 from ..errors import ChainError, NodeError, OutOfGasError, VerificationError
-from ..ethereum import checksum_address, keccak256, to_hex, word
-from ..studio import STUDIO, stored_codes
+from ..ethereum._encoding import checksum_address, keccak256, to_hex, word
+from ..studio._storage import STUDIO, stored_codes
 from ._collection import EDITIONS, Collection, CollectionKind
 from ._editions import Edition, edition_at
 from ._icons import CollectionIcon, icon_at

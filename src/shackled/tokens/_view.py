@@ -13,8 +13,8 @@ from importlib.resources import files
 from string import Template
 from typing import Any
 
-from ..chain import Report, read_all
-from ..values import plural
+from ..base.values import plural
+from ..chain._connection import Report, read_all
 from ._collection import Collection
 from ._metadata import Metadata
 

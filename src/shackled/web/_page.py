@@ -15,13 +15,14 @@ from typing import Unpack
 
 from .._load import Thing, load_picture, locate
 from .._render import render
-from ..datasets import Piece
+from ..base.values import plural
+from ..base.whole_file import check_output_file, write_output
+from ..datasets._pieces import Piece
 from ..errors import InputError
-from ..evm import module_bytes
+from ..evm._module import module_bytes
 from ..image import Image
-from ..scene import LookOptions, render_call
-from ..values import plural
-from ..whole_file import check_output_file, write_output
+from ..scene._codec import render_call
+from ..scene._settings import LookOptions
 
 #: The files that the element needs, by name; tools/build_web.py and tools/build_evm.py write them.
 ASSETS = ("view.js", "evm.wasm", "contracts.json")

@@ -11,7 +11,9 @@ from .._load import Thing, load_picture
 from .._render import render
 from ..errors import InputError
 from ..image import Image
-from ..scene import LookOptions, Scene, render_call
+from ..scene._codec import render_call
+from ..scene._scene import Scene
+from ..scene._settings import LookOptions
 from ._page import asset
 
 if TYPE_CHECKING:

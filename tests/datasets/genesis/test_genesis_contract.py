@@ -37,7 +37,7 @@ from shackled.datasets.genesis import (
     seed_of,
 )
 from shackled.errors import InputError, RenderError
-from shackled.ethereum import keccak256
+from shackled.ethereum._encoding import keccak256
 from shackled.scene import encode
 from shackled.scene._files.original import original_scene
 

@@ -8,7 +8,8 @@ from shackled.datasets.common.shapes import joined
 from shackled.datasets.icons import _icons
 from shackled.datasets.icons import pieces as icons
 from shackled.datasets.icons._icons import CREASE
-from shackled.scene import Mesh, is_closed
+from shackled.scene._mesh import Mesh
+from shackled.scene._staging import is_closed
 
 #: EIP-7825.
 TRANSACTION_GAS = 2**24

@@ -4,7 +4,7 @@ import pytest
 from shackled.datasets.icons import modelling as m
 from shackled.datasets.icons import outlines
 from shackled.errors import InputError
-from shackled.scene import is_closed
+from shackled.scene._staging import is_closed
 
 SQUARE = [(0, 0), (2, 0), (2, 2), (0, 2)]
 #: A comb of two teeth: concave, and clockwise.

@@ -13,9 +13,10 @@ import pytest
 from PIL import Image
 
 from shackled.errors import InputWarning
-from shackled.scene import Texture, read_model
 from shackled.scene._files.beside import OUTSIDE
+from shackled.scene._files.mesh_file import read_model
 from shackled.scene._mesh import DEFAULT_COLOR
+from shackled.scene._texture import Texture
 
 RED, BLUE, GREY, WHITE = (255, 0, 0), (0, 0, 255), DEFAULT_COLOR, (255, 255, 255)
 CORNERS = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"

@@ -13,7 +13,9 @@ from PIL import Image
 from mesh_files import POINTS, GltfObject, corner_colors, corner_positions, refusal
 from shackled import load
 from shackled.errors import InputWarning
-from shackled.scene import MESH_STAGING, read_mesh, read_model
+from shackled.scene import read_mesh
+from shackled.scene._files.mesh_file import read_model
+from shackled.scene._staging import MESH_STAGING
 
 
 def triangle(**material: Any) -> GltfObject:

@@ -17,7 +17,9 @@ from mesh_files import POINTS, refusal
 from mesh_files import GltfObject as File
 from shackled import load
 from shackled.errors import InputError, InputWarning
-from shackled.scene import MeshPart, part_of, read_model
+from shackled.scene._files.mesh_file import read_model
+from shackled.scene._files.model import MeshPart
+from shackled.scene._from_trimesh import part_of
 
 Values = NDArray[Any]
 

@@ -7,7 +7,7 @@ import pytest
 
 from mesh_files import refusal
 from shackled import load
-from shackled.scene import MAX_BYTES
+from shackled.scene._files.content import MAX_BYTES
 
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"
 

@@ -6,9 +6,8 @@ from PIL import Image
 
 from mesh_files import corner_colors, corner_positions, read_with_notes, refusal
 from mesh_files import read as read_file
-from shackled.scene import Mesh
 from shackled.scene._files.model import TEXTURED
-from shackled.scene._mesh import DEFAULT_COLOR
+from shackled.scene._mesh import DEFAULT_COLOR, Mesh
 
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\n"
 SQUARE = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n"

@@ -5,8 +5,7 @@ import pytest
 
 import mesh_files
 from mesh_files import corner_colors
-from shackled.scene import Mesh
-from shackled.scene._mesh import DEFAULT_COLOR
+from shackled.scene._mesh import DEFAULT_COLOR, Mesh
 
 SQUARE = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n"
 BEGINS = "an OFF file begins with OFF, or with letters before it, as in COFF, NOFF, NCOFF or STOFF"

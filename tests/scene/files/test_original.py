@@ -6,7 +6,7 @@ import pytest
 from original_scenes import LIGHT, documents, wrong_documents
 from shackled import Camera, Scene
 from shackled.errors import InputError
-from shackled.scene import rotate
+from shackled.scene._arithmetic import rotate
 from shackled.scene._files.original import original_scene
 
 TRIANGLE: dict[str, Any] = {"canvasDim": 64, "verts": [[0, 0, 0], [10, 0, 0], [0, 10, 0]], "faces": [[0, 1, 2]]}

@@ -14,8 +14,9 @@ from PIL.PngImagePlugin import PngInfo
 
 from mesh_files import refusal
 from shackled import Image, InputError, Mesh, Scene, load, render
-from shackled.scene import read_scene, render_call, scene_chunk, stage
-from shackled.scene._files.picture import LONGEST_TEXT
+from shackled.scene import stage
+from shackled.scene._codec import render_call
+from shackled.scene._files.picture import LONGEST_TEXT, scene_chunk
 
 SCENE = load("icons/coin", 24)
 CALL = b"0x" + render_call(SCENE).hex().encode()
@@ -56,7 +57,7 @@ def text(content: bytes, keyword: bytes = b"shackled", method: bytes = b"\0") ->
 def test_the_same_call_and_the_same_picture(tmp_path: Path, picture: bytes) -> None:
     path = tmp_path / "X.PNG"
     path.write_bytes(picture)
-    for scene in (load(path), load(str(path)), read_scene(path)):
+    for scene in (load(path), load(str(path))):
         assert render_call(scene) == render_call(SCENE)
     again = render(path)
     assert again.pixels.tobytes() == render(SCENE).pixels.tobytes()

@@ -9,8 +9,9 @@ from PIL import Image
 import mesh_files
 from mesh_files import corner_colors
 from shackled.errors import InputError, InputWarning
-from shackled.scene import Mesh, MeshPart, read_model
-from shackled.scene._mesh import DEFAULT_COLOR
+from shackled.scene._files.mesh_file import read_model
+from shackled.scene._files.model import MeshPart
+from shackled.scene._mesh import DEFAULT_COLOR, Mesh
 
 SQUARE = ((0, 0, 0), (1, 0, 0), (1, 1, 0), (0, 1, 0))
 GREY = list(DEFAULT_COLOR)

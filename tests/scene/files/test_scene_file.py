@@ -9,7 +9,8 @@ import pytest
 from mesh_files import refusal
 from pictures import projected
 from shackled import Background, Fog, Light, Material, Rim, Scene, Tone, load
-from shackled.scene import Hemisphere, rotate
+from shackled.scene import Hemisphere
+from shackled.scene._arithmetic import rotate
 from shackled.scene._staging import BACKGROUND
 
 TRIANGLE = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n"

@@ -6,8 +6,7 @@ import pytest
 
 import mesh_files
 from mesh_files import corner_colors, corner_positions
-from shackled.scene import Mesh
-from shackled.scene._mesh import DEFAULT_COLOR
+from shackled.scene._mesh import DEFAULT_COLOR, Mesh
 
 POINTS = ((0, 0, 0), (1, 0, 0), (0, 1, 0))
 ASCII_STL = "solid s\nfacet normal 0 0 1\nouter loop\n{}endloop\nendfacet\nendsolid s\n"

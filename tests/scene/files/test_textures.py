@@ -19,10 +19,13 @@ import shackled
 from mesh_files import Gltf, png, sheet
 from shackled import InputError, Material, Mesh, Object, Scene, Texture, load
 from shackled.errors import InputWarning
-from shackled.scene import read_mesh, read_model, render_call, simplify
+from shackled.scene import read_mesh
+from shackled.scene._codec import render_call
 from shackled.scene._files.beside import OUTSIDE
+from shackled.scene._files.mesh_file import read_model
 from shackled.scene._files.model import TEXTURED
 from shackled.scene._packed import unpack_texture
+from shackled.scene._simplify import simplify
 from shackled.scene._texture import sample
 
 Pixels = NDArray[np.uint8]

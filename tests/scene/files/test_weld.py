@@ -2,7 +2,7 @@ import numpy as np
 import pytest
 
 from shackled.errors import InputError
-from shackled.scene import weld
+from shackled.scene._mesh import weld
 
 SQUARE = [[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]]
 RED, BLUE = [255, 0, 0], [0, 0, 255]

@@ -1,5 +1,5 @@
 // Conversion of scenes to the number ranges of the contracts, without a change of the picture.
-// src/shackled/scene/_fit.py, whose numbers these are, says how and why.
+// src/shackled/scene/_in_range.py, whose numbers these are, says how and why.
 
 import { InputError } from "../errors.js";
 import {

@@ -8,20 +8,24 @@ from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from ...checks import choice
+from ...base.checks import choice
+from ...base.whole_file import check_output_folder
 from ...errors import InputError
-from ...ethereum import parse_ether
-from ...tokens import ICON_PRICE, KINDS, SCALE
-from ...whole_file import check_output_folder
+from ...ethereum._amounts import parse_ether
+from ...tokens._collection import KINDS
+from ...tokens._icons import ICON_PRICE, SCALE
 from ..chain_options import JSON, MAX_FEE, NodeOptions, PayerOptions, address, print_step
 from ..option import argument, option
 from ..output import print_json, print_line, print_note
 from .options import ROYALTY
 
 if TYPE_CHECKING:
-    from ...datasets import Piece
-    from ...deploy import Quote, Receipt, Transactor
-    from ...tokens import Collection, CollectionKind, CollectionTerms, Launch, StoragePlan
+    from ...datasets._pieces import Piece
+    from ...deploy._quote import Quote
+    from ...deploy._transactor import Receipt, Transactor
+    from ...tokens._collection import Collection, CollectionKind
+    from ...tokens._launch import CollectionTerms, Launch
+    from ...tokens._storage import StoragePlan
 
 
 @dataclass(frozen=True)
@@ -51,7 +55,7 @@ class TermsOptions:
 
     def pieces(self, kind: CollectionKind) -> list[Piece]:
         """Return the icons of a collection of icons. InputError for options of icons for another one."""
-        from ...tokens import check_sale, chosen_pieces
+        from ...tokens._icons import check_sale, chosen_pieces
 
         if kind.hidden:
             if self.icons is not None or self.supply is not None:
@@ -63,7 +67,7 @@ class TermsOptions:
 
     def list_wanted(self) -> tuple[bytes, str | None] | None:
         """Return the root of the allow list and who signs permissions; None for neither."""
-        from ...tokens import read_allow_list
+        from ...tokens._allow_list import read_allow_list
 
         if self.allow_list is None:
             return None if self.signer is None else (bytes(32), self.signer)
@@ -71,7 +75,7 @@ class TermsOptions:
 
     def terms(self, payer: str, has_list: bool, has_icons: bool) -> CollectionTerms:
         """Return the terms of the contract. InputError for another owner where the owner has to do more."""
-        from ...tokens import CollectionTerms
+        from ...tokens._launch import CollectionTerms
 
         owner = self.owner or payer
         if owner != payer and has_list:
@@ -96,7 +100,10 @@ def deploy(
     as_json: bool = JSON,
 ) -> None:
     """Deploy a collection and the contracts that it calls. Prints the price first and skips what exists."""
-    from ...tokens import SceneToStore, check_randomness, plan_launch, plan_setup, plan_storage, token_scene
+    from ...tokens._icons import token_scene
+    from ...tokens._launch import plan_launch, plan_setup
+    from ...tokens._reveal import check_randomness
+    from ...tokens._storage import SceneToStore, plan_storage
 
     kind = KINDS[collection]
     list_wanted, chosen = options.list_wanted(), options.pieces(kind)
@@ -154,7 +161,8 @@ def _launch(
     plan: Launch, storage: StoragePlan | None, setup: Mapping[str, Quote], transactor: Transactor
 ) -> tuple[Collection, Receipt | None, int]:
     """Send what is missing; return the collection, the receipt of its deployment, and the gas of all."""
-    from ...tokens import launch, store
+    from ...tokens._launch import launch
+    from ...tokens._storage import store
 
     spent: list[int] = []
 
@@ -181,7 +189,7 @@ def demo(
 
     It uses the keys that anvil publishes, and refuses any other chain.
     """
-    from ...tokens import run_demo
+    from ...tokens._demo import run_demo
 
     check_output_folder(output)
     tokens = run_demo(NodeOptions(rpc).connect(), output, print_note, max_fee)

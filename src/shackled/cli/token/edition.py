@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
+from ...base.values import plural
 from ...errors import VerificationError
-from ...ethereum import amount, ether, parse_ether
-from ...tokens import OPEN
-from ...values import plural
+from ...ethereum._amounts import amount, ether, parse_ether
+from ...tokens._editions import OPEN
 from ..chain_options import JSON, NodeOptions, PayerOptions, address
 from ..option import argument, option
 from ..output import print_json, print_line, print_table
@@ -16,7 +16,7 @@ from ..progress import LateBar
 from .options import MAX_NUMBER, POINTER, ROYALTY, SCALE
 
 if TYPE_CHECKING:
-    from ...tokens import Collection
+    from ...tokens._collection import Collection
 
 NUMBER = argument("Number of the edition.", "EDITION", min=0, max=MAX_NUMBER)
 
@@ -32,7 +32,8 @@ class EditionsOptions(NodeOptions):
 
         exact: also compare its code, before something is added or paid. VerificationError if it differs.
         """
-        from ...tokens import check_collection_code, open_editions
+        from ...tokens._editions import open_editions
+        from ...tokens._verify import check_collection_code
 
         collection = open_editions(self.connect(), self.collection)
         if exact:
@@ -62,9 +63,10 @@ def add(
     as_json: bool = JSON,
 ) -> None:
     """Add a scene as an edition whose tokens anyone can mint. It cannot be changed later."""
-    from ...deploy import local_chain
-    from ...studio import STUDIO, stored_codes
-    from ...tokens import EditionTerms, add_gas, added_number, edition_at, minted_tokens
+    from ...deploy._contract import local_chain
+    from ...studio._storage import STUDIO, stored_codes
+    from ...tokens._contract import minted_tokens
+    from ...tokens._editions import EditionTerms, add_gas, added_number, edition_at
 
     terms = EditionTerms(name, pointer, price, OPEN if supply is None else supply, royalty, copies, scale, model)
     collection = which.open(exact=True)
@@ -94,7 +96,8 @@ def mint(
     as_json: bool = JSON,
 ) -> None:
     """Mint tokens of an edition. Prints the price first."""
-    from ...tokens import edition_at, minted_tokens
+    from ...tokens._contract import minted_tokens
+    from ...tokens._editions import edition_at
 
     collection = which.open(exact=True)
     chosen = edition_at(collection, edition)
@@ -118,7 +121,7 @@ def list_(
     as_json: bool = JSON,
 ) -> None:
     """List the editions, with the amounts that their artists can withdraw."""
-    from ...tokens import editions_of
+    from ...tokens._editions import editions_of
 
     collection = which.open()
     with LateBar("reading editions") as bar:
@@ -154,7 +157,7 @@ def list_(
 
 def close(which: EditionsOptions, payer: PayerOptions, edition: int = NUMBER) -> None:
     """Close an edition: no more tokens can be minted. Cannot be undone. For its artist."""
-    from ...tokens import edition_at
+    from ...tokens._editions import edition_at
 
     collection = which.open()
     chosen = edition_at(collection, edition)
@@ -170,7 +173,8 @@ def withdraw(
     to: str | None = address("--to", "Receiver; default: you."),
 ) -> None:
     """Withdraw the proceeds of your editions."""
-    from ...tokens import edition_at, editions_of, withdraw_call, withdrawn
+    from ...tokens._contract import withdrawn
+    from ...tokens._editions import edition_at, editions_of, withdraw_call
 
     receiver = to or payer.address
     collection = which.open()

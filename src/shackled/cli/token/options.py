@@ -5,16 +5,16 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from ...chain import AddressBook
-from ...checks import number
+from ...base.checks import number
+from ...chain._address_book import AddressBook
 from ...errors import InputError
-from ...ethereum import checksum_address
-from ...tokens import EDITIONS, KINDS
+from ...ethereum._encoding import checksum_address
+from ...tokens._collection import EDITIONS, KINDS
 from ..chain_options import NodeOptions, parse_checksum_address
 from ..option import argument, option
 
 if TYPE_CHECKING:
-    from ...tokens import Collection
+    from ...tokens._collection import Collection
 
 #: The largest number of an argument.
 MAX_NUMBER = 2**64 - 1
@@ -50,7 +50,8 @@ class CollectionOptions(NodeOptions):
 
         or_editions: whether it may be that of the editions, which has no owner and no sale.
         """
-        from ...tokens import open_collection, open_editions
+        from ...tokens._collection import open_collection
+        from ...tokens._editions import open_editions
 
         name = self.collection
         if name == EDITIONS.name and not or_editions:

@@ -7,11 +7,12 @@ import time
 from functools import partial
 from pathlib import Path
 
-from ...checks import choice, number
+from ...base.checks import choice, number
+from ...base.whole_file import write_output
 from ...errors import InputError
-from ...ethereum import checksum_address, ether, parse_ether
-from ...tokens import PHASES
-from ...whole_file import write_output
+from ...ethereum._amounts import ether, parse_ether
+from ...ethereum._encoding import checksum_address
+from ...tokens._contract import PHASES
 from ..chain_options import PayerOptions, SignerOptions, address, parse_checksum_address
 from ..option import argument, is_from_environment, option
 from ..output import print_line
@@ -34,7 +35,7 @@ def withdraw(
     which: CollectionOptions, payer: PayerOptions, to: str | None = address("--to", "Receiver; default: the owner.")
 ) -> None:
     """Withdraw the ether of the sale. For the owner."""
-    from ...tokens import withdrawn
+    from ...tokens._contract import withdrawn
 
     collection = which.open()
     receiver = to or payer.address
@@ -92,7 +93,7 @@ def allow_list(
     signer: str | None = address("--signer", "Account that signs permissions; default: unchanged."),
 ) -> None:
     """Print the root of an allow list; with --rpc, set it in a collection. For the owner."""
-    from ...tokens import read_allow_list
+    from ...tokens._allow_list import read_allow_list
 
     allowed = read_allow_list(file)
     quantities = allowed.allowances.values()
@@ -118,7 +119,7 @@ def permit(
     days: float = option("--days", "Days until it expires.", "DAYS", min=0, default=30),
 ) -> None:
     """Sign a permission to mint for one account; sends no transaction. For the signer of the collection."""
-    from ...tokens import sign_allowance
+    from ...tokens._minting import sign_allowance
 
     seconds = 86400 * number(days, "--days", 0, 36_500)
     collection = which.open()
@@ -149,9 +150,10 @@ def add(
     reserve: int = option("--reserve", "Number of these tokens reserved for the team.", "N", default=1),
 ) -> None:
     """Add an icon, whose scene is already stored, to a collection that is not sealed. For the owner."""
-    from ...deploy import local_chain
-    from ...studio import STUDIO, stored_codes
-    from ...tokens import SCALE, SceneToStore, add_call, check_sale, chosen_pieces, plan_storage, token_scene
+    from ...deploy._contract import local_chain
+    from ...studio._storage import STUDIO, stored_codes
+    from ...tokens._icons import SCALE, add_call, check_sale, chosen_pieces, token_scene
+    from ...tokens._storage import SceneToStore, plan_storage
 
     check_sale(supply, reserve)
     pieces = [] if pointer is not None else chosen_pieces(name)
@@ -173,7 +175,7 @@ def add(
 
 def seal(which: IconsOptions, payer: PayerOptions) -> None:
     """Seal the set of icons; required before the sale. Cannot be undone. For the owner."""
-    from ...tokens import icons_of
+    from ...tokens._icons import icons_of
 
     collection = which.open()
     icons = icons_of(collection)

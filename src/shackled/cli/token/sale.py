@@ -6,15 +6,16 @@ import time
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from ...base.values import plural
 from ...errors import InputError
-from ...values import plural
 from ..chain_options import CALLDATA, JSON, PayerOptions, address, parse_checksum_address, print_price, write_calls
 from ..option import argument, exclude, option
 from ..output import print_json, print_line, print_note
 from .options import MAX_NUMBER, TOKEN, CollectionOptions
 
 if TYPE_CHECKING:
-    from ...tokens import Collection, Round
+    from ...tokens._collection import Collection
+    from ...tokens._reveal import Round
 
 #: Seconds between two requests while waiting for a block.
 PAUSE = 4.0
@@ -35,7 +36,10 @@ def mint(
     as_json: bool = JSON,
 ) -> None:
     """Mint tokens. Prints the price first."""
-    from ...tokens import find_icon, mint_call, minted_tokens, read_allow_list, read_allowance
+    from ...tokens._allow_list import read_allow_list
+    from ...tokens._contract import minted_tokens
+    from ...tokens._icons import find_icon
+    from ...tokens._minting import mint_call, read_allowance
 
     exclude("--allow-list", allow_list, {"--permission": permission, "--reserve-to": reserve_to})
     exclude("--permission", permission, {"--reserve-to": reserve_to})
@@ -72,8 +76,8 @@ def reveal(
     as_json: bool = JSON,
 ) -> None:
     """Reveal the tokens whose blocks are mined. Anyone can do this."""
-    from ...deploy import current_fees
-    from ...tokens import hidden_rounds, price_calls, reveal_calls
+    from ...deploy._quote import current_fees
+    from ...tokens._reveal import hidden_rounds, price_calls, reveal_calls
 
     collection = which.open()
     say = print_note if as_json else print_line

@@ -7,11 +7,12 @@ from pathlib import Path
 from typing import Any
 
 from ...animation import DURATION
+from ...base.whole_file import check_output_file, write_output
 from ...errors import InputError, VerificationError
-from ...ethereum import amount, ether
+from ...ethereum._amounts import amount, ether
 from ...image import check_output, one_of
-from ...tokens import EDITIONS, PHASES
-from ...whole_file import check_output_file, write_output
+from ...tokens._collection import EDITIONS
+from ...tokens._contract import PHASES
 from ..chain_options import JSON, NodeOptions
 from ..look_options import parse_size
 from ..option import argument, need, option
@@ -29,7 +30,7 @@ def show(
     as_json: bool = JSON,
 ) -> None:
     """Show the traits of a token, and save its picture, both from its `tokenURI`."""
-    from ...tokens import read_view
+    from ...tokens._view import read_view
 
     if output is not None:
         check_output(output)
@@ -55,7 +56,8 @@ def show(
 
 def list_(which: CollectionOptions, as_json: bool = JSON) -> None:
     """List the tokens with owners and traits, and the state of the collection."""
-    from ...tokens import icons_of, read_views
+    from ...tokens._icons import icons_of
+    from ...tokens._view import read_views
 
     if which.collection == EDITIONS.name:
         raise InputError("editions have no sale phases: shackled token edition list lists them")
@@ -103,8 +105,9 @@ def picture(
     size: tuple[int, int] | None = option("--size", "Pixels of a frame, as 64 or 80x60.", "SIZE", parse=parse_size),
 ) -> None:
     """Render a stored scene on a chain."""
-    from ...studio import ANIMATE, STUDIO
-    from ...tokens import Contract, address_of
+    from ...studio._storage import ANIMATE, STUDIO
+    from ...tokens._contract import Contract
+    from ...tokens._launch import address_of
 
     calls: dict[str, tuple[Any, ...]] = {
         ".png": ("renderPNG(address,uint256)", pointer, scale),
@@ -133,8 +136,8 @@ def picture(
 
 def verify(which: CollectionOptions, numbers: tuple[int, ...] = argument("Tokens; default: all.", "ID")) -> None:
     """Compare the code, the seeds and the pictures of a collection with those computed locally."""
-    from ...deploy import local_chain
-    from ...tokens import check_code, check_token
+    from ...deploy._contract import local_chain
+    from ...tokens._verify import check_code, check_token
 
     collection, local = which.open(or_editions=True), local_chain()
     failed = unread = 0

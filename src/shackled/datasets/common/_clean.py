@@ -6,7 +6,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ...errors import InputError
-from ...scene import GENTLE, Mesh, from_euler, rotate, simplify, without_slivers
+from ...scene._arithmetic import from_euler, rotate
+from ...scene._mesh import Mesh, without_slivers
+from ...scene._simplify import GENTLE, simplify
 
 #: The number of triangles of the largest object of the Shackled paper.
 MAX_TRIANGLES = 1198

@@ -11,7 +11,12 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from ...scene import Background, Camera, Light, Material, Mesh, Object, Scene
+from ...scene._camera import Camera
+from ...scene._effects import Background
+from ...scene._light import Light
+from ...scene._mesh import Mesh
+from ...scene._object import Material, Object
+from ...scene._scene import Scene
 
 Point = tuple[float, float, float]
 Color = tuple[int, int, int]

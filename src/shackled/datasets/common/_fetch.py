@@ -13,8 +13,10 @@ from pathlib import Path
 import numpy as np
 
 from ...errors import FetchError, InputError, InputWarning
-from ...scene import MAX_BYTES, Mesh, read_mesh, weld
-from .. import cache_folder
+from ...scene._files.content import MAX_BYTES
+from ...scene._files.mesh_file import read_mesh
+from ...scene._mesh import Mesh, weld
+from .._drawing import cache_folder
 from ._clean import prepare
 from ._models import Model, save_mesh
 

@@ -13,8 +13,13 @@ from pathlib import Path
 import numpy as np
 
 from ...errors import InputError
-from ...scene import Material, Mesh, Object, Scene, contrasting, painted, stage
-from .. import Piece, cache_folder, keep
+from ...scene._look import stage
+from ...scene._mesh import Mesh
+from ...scene._object import Material, Object
+from ...scene._scene import Scene
+from ...scene._staging import contrasting, painted
+from .._drawing import cache_folder, keep
+from .._pieces import Piece
 from . import builtin
 
 #: Incremented when `prepare` or the format of its files changes, so that caches are not reused.

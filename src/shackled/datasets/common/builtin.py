@@ -6,8 +6,15 @@ from collections.abc import Callable
 from functools import partial
 from typing import Any
 
-from ...scene import Background, Camera, Material, Mesh, Object, Scene, painted, stage
-from .. import Piece, teapot
+from ...scene._camera import Camera
+from ...scene._effects import Background
+from ...scene._look import stage
+from ...scene._mesh import Mesh
+from ...scene._object import Material, Object
+from ...scene._scene import Scene
+from ...scene._staging import painted
+from .._pieces import Piece
+from .._teapot import teapot
 from . import shapes
 from ._cornell_box import cornell_box
 

@@ -9,8 +9,8 @@ import numpy as np
 from attrs import evolve
 from numpy.typing import ArrayLike, NDArray
 
-from ...checks import color as checked_color
-from ...scene import Mesh, faces_of_all, vertex_normals, without_slivers
+from ...base.checks import color as checked_color
+from ...scene._mesh import Mesh, faces_of_all, vertex_normals, without_slivers
 
 Array = NDArray[np.float64]
 #: From u and v, each (n, m) from 0 to 1, to points (n, m, 3).

@@ -8,8 +8,15 @@ import numpy as np
 from attrs import evolve
 from numpy.typing import ArrayLike
 
-from ...scene import NORMAL_UNIT, Background, Camera, Light, Material, Object, Scene, stage, view_axes
-from .. import Piece
+from ...scene._camera import Camera
+from ...scene._effects import Background
+from ...scene._light import Light
+from ...scene._look import stage
+from ...scene._object import Material, Object
+from ...scene._packed import NORMAL_UNIT
+from ...scene._scene import Scene
+from ...scene._staging import view_axes
+from .._pieces import Piece
 from .modelling import (
     Array,
     Solid,

@@ -15,8 +15,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from ... import checks
-from ...scene import Mesh, from_euler, rotate
+from ...base import checks
+from ...scene._arithmetic import from_euler, rotate
+from ...scene._mesh import Mesh
 from ..common import shapes
 from .outlines import arc, chamfered, inset, rectangle, regular, triangulate
 

@@ -12,8 +12,8 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any
 
+from ...base.untrusted import read_json, read_toml
 from ...errors import InputError, renaming, warn
-from ...untrusted import read_json, read_toml
 from .signatures import BINARY_STL, HEAD, UTF8, UTF16, Signature, damage_of, format_by_name, formats, signature_of
 
 #: No mesh for a contract is nearly as large; a larger file would only fill the memory.

@@ -13,7 +13,7 @@ from attrs import frozen
 from ...errors import InputError
 from .._scene import Scene
 from .content import parse
-from .scene_file import scene_of
+from .scene_file import SceneOfPiece, Sources, scene_of
 from .table import about
 
 #: Of the JSON in a link, in bytes. A link is untrusted, and could be a thousand times as large when it is inflated.
@@ -35,11 +35,11 @@ class Link:
         """Return what it is called."""
         return "the link"
 
-    def scene(self) -> Scene:
-        """Return its scene. InputError if the link is damaged, or needs a file."""
+    def scene(self, piece: SceneOfPiece) -> Scene:
+        """Return its scene. piece: as in `read_scene`. InputError if the link is damaged, or needs a file."""
         document = parse(Path(str(self)), _inflated(self.text), ".json")
         with about(str(self)):
-            return scene_of(document, None)
+            return scene_of(document, Sources(piece))
 
 
 def _inflated(link: str) -> str:

@@ -11,12 +11,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ...base.values import plural
 from ...errors import InputError, InputWarning, warn
-from ...values import plural
 from .._mesh import Mesh
 from .content import format_of
 from .gltf.read import read_gltf
-from .model import TEXTURED, MeshPart, baked, seen
+from .model import TEXTURED, MeshPart, merged, seen
 from .obj import read_obj
 from .off import read_off
 from .ply import read_ply
@@ -42,7 +42,7 @@ READERS: dict[str, Callable[..., list[MeshPart]]] = {
 
 def read_mesh(path: str | os.PathLike[str]) -> Mesh:
     """Return all of a mesh file as one mesh, with the colours of textures at its vertices; see `read_model`."""
-    mesh, loses = baked(read_model(path))
+    mesh, loses = merged(read_model(path))
     if loses:
         warn(f"{path}: {TEXTURED}")
     return mesh

@@ -11,7 +11,7 @@ from attrs import evolve
 from numpy.typing import ArrayLike, NDArray
 from PIL import Image
 
-from ...checks import Color
+from ...base.checks import Color
 from ...errors import warn
 from .._crease import filled
 from .._mesh import DEFAULT_COLOR, Mesh, faces_of_all, weld
@@ -225,20 +225,20 @@ def tinted(colors: Array, picture: Picture, uvs: Array) -> Array:
     return product
 
 
-def baked(parts: Sequence[MeshPart]) -> tuple[Mesh, bool]:
+def merged(parts: Sequence[MeshPart]) -> tuple[Mesh, bool]:
     """Return all meshes as one, with the colours of their textures at the vertices, and whether that loses anything."""
     textured = [part for part in parts if "texture" in part.material]
     if len(parts) == 1 and not textured and parts[0].opacity == 1:
         return parts[0].mesh, False
     faces = faces_of_all(part.mesh for part in parts)
-    colors = np.concatenate([_baked_colors(part) for part in parts])
+    colors = np.concatenate([_vertex_colors(part) for part in parts])
     positions = np.concatenate([part.mesh.positions for part in parts])
     normals = [part.mesh.normals for part in parts if part.mesh.normals is not None]
     found = np.concatenate(normals)[faces] if len(normals) == len(parts) else None
     return weld(positions, faces, colors[faces], found), bool(textured)
 
 
-def _baked_colors(part: MeshPart) -> Array:
+def _vertex_colors(part: MeshPart) -> Array:
     colors: Array = np.rint(part.mesh.rgba * np.array([1, 1, 1, part.opacity]))
     texture: Texture | None = part.material.get("texture")
     if texture is None or part.mesh.uvs is None:

@@ -19,8 +19,8 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from ...base.values import plural
 from ...errors import InputError, warn
-from ...values import plural
 from .._crease import corner_normals, filled
 from .._mesh import DEFAULT_COLOR
 from .._texture import to_bytes

@@ -14,8 +14,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ...base.values import plural
 from ...errors import InputError, warn
-from ...values import plural
 from .._mesh import DEFAULT_COLOR
 from .._texture import to_bytes
 from .beside import picture_beside

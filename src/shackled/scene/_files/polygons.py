@@ -8,8 +8,8 @@ import mapbox_earcut
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from ...base.values import plural
 from ...errors import InputError, warn
-from ...values import plural
 from .._mesh import Mesh
 
 #: How many corners a polygon may have that no fan fills: the time that its cutting takes grows with their square.

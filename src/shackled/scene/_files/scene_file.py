@@ -14,10 +14,10 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from attrs import evolve
+from attrs import evolve, frozen
 from numpy.typing import ArrayLike, NDArray
 
-from ...checks import number
+from ...base.checks import number
 from ...errors import InputError
 from .._arithmetic import IDENTITY, from_axis_angle, from_euler, multiply
 from .._camera import Camera, half_height_in
@@ -30,7 +30,7 @@ from .._look import view_of
 from .._mesh import Mesh
 from .._object import Material, Object
 from .._scene import Scene
-from .._settings import Part, exclude, settings_of
+from .._settings import ScenePart, exclude, settings_of
 from .._staging import BACKGROUND, DEFAULT_SIDE, Viewpoint, frame, painted_object, toward_viewer
 from .._table import keys_of
 from .._texture import Texture
@@ -46,14 +46,34 @@ from .table import Table, about
 SCENES = (".toml", ".json")
 
 _Read = Callable[[Table, str], Any]
+SceneOfPiece = Callable[[str], Scene]
 
 _PIECE = ("piece", "object")
 _ROTATION = ("quaternion", "axis", "angle")
 
 
-def read_scene(path: str | os.PathLike[str]) -> Scene:
+@frozen
+class Sources:
+    """Where a scene file takes meshes and images from.
+
+    piece: returns the scene of a piece of a dataset by its name. folder: of files; None where none can be named.
+    """
+
+    piece: SceneOfPiece
+    folder: Path | None = None
+
+    def path(self, name: str) -> Path:
+        """Return the path of a file in the folder."""
+        if self.folder is None:
+            hint = "save a scene file in the Creator instead"
+            raise InputError(f"a link cannot name files, such as {name!r:.60}; {hint}")
+        return inside(self.folder, self.folder / name, name)
+
+
+def read_scene(path: str | os.PathLike[str], piece: SceneOfPiece) -> Scene:
     """Return the scene of a scene file, or the one that a PNG file carries.
 
+    piece: returns the scene of a piece of a dataset by its name.
     A JSON file with the key `canvasDim` is a scene of the original contracts. InputError, one line that begins with the
     path, if anything is wrong.
     """
@@ -70,15 +90,15 @@ def read_scene(path: str | os.PathLike[str]) -> Scene:
     with about(str(path)):
         if extension == ".json" and "canvasDim" in document:
             return original_scene(document)
-        return scene_of(document, path.parent)
+        return scene_of(document, Sources(piece, path.parent))
 
 
-def scene_of(document: Mapping[str, Any], folder: Path | None) -> Scene:
-    """Return the scene of a document whose meshes are files relative to `folder`; without one it cannot name files."""
+def scene_of(document: Mapping[str, Any], sources: Sources) -> Scene:
+    """Return the scene of a document whose meshes and images are of these sources."""
     table = Table(document, "", keys_of("Scene"))
     table.table("creator")  # of the Creator: it has no effect here
     width, height = _size(table)
-    objects = [each for where, part in table.rows("objects") for each in _objects(part, where, folder)]
+    objects = [each for where, part in table.rows("objects") for each in _objects(part, where, sources)]
     view, camera = _camera(table.table("camera", keys_of("Camera")), width, height, objects)
     given = {"lights": [toward_viewer(view)], "background": BACKGROUND, **_settings(table, "scene")}
     if "tone" in table:
@@ -86,7 +106,7 @@ def scene_of(document: Mapping[str, Any], folder: Path | None) -> Scene:
     return Scene(objects, camera, width=width, height=height, **given)
 
 
-def _settings(keys: Table, part: Part) -> dict[str, Any]:
+def _settings(keys: Table, part: ScenePart) -> dict[str, Any]:
     """Return the settings of a part of a scene that a table has."""
     return {
         each.name: each.check(_READ[each.kind](keys, each.name), keys.place(each.name))
@@ -175,10 +195,10 @@ def _light(value: object, where: str) -> Light:
         return Light(**({"toward": given.pop("direction")} if kind == "directional" else {}), **given)
 
 
-def _objects(value: object, where: str, folder: Path | None) -> list[Object]:
+def _objects(value: object, where: str, sources: Sources) -> list[Object]:
     """Return the objects of a table: one, or one for each texture of the mesh file that it names."""
     keys = Table(value, where, keys_of("Object"))
-    parts = _parts(keys, where, folder)
+    parts = _parts(keys, where, sources)
     given = _settings(keys, "object")
     surface = keys.table("material", keys_of("Material"))
     fields = _settings(surface, "material")
@@ -190,14 +210,14 @@ def _objects(value: object, where: str, folder: Path | None) -> list[Object]:
     if not is_inside or crease is not None:
         fields["shading"] = "flat"
     if "texture" in surface:
-        fields["texture"] = _texture(surface, folder)
+        fields["texture"] = _texture(surface, sources)
     position, scale = keys.numbers("position", (0, 0, 0)), keys.number("scale", 1)
     axis = keys.choice("up_axis", AXES, "y")
     if not isinstance(name := keys.get("mesh"), str):
         if "up_axis" in keys:
             raise InputError(f"{keys.place('up_axis')} is for meshes of files")
     elif "up_axis" not in keys and "rotation" not in keys:
-        axis = axis_of_file(_beside(folder, name), parts)
+        axis = axis_of_file(sources.path(name), parts)
     rotation = multiply(_rotation(keys), upright(axis))
     if "fade" in keys:
         given["fade"] = keys.numbers("fade", (0, 0))
@@ -213,17 +233,17 @@ def _objects(value: object, where: str, folder: Path | None) -> list[Object]:
         return objects
 
 
-def _parts(keys: Table, where: str, folder: Path | None) -> list[MeshPart]:
+def _parts(keys: Table, where: str, sources: Sources) -> list[MeshPart]:
     value = keys.get("mesh")
-    if folder is None and isinstance(value, Mapping) and "file" in value:  # one that was opened on the page
+    if sources.folder is None and isinstance(value, Mapping) and "file" in value:  # one that was opened on the page
         raise InputError(f"{where} needs a file that was opened in the Creator; save a scene file there instead")
     if isinstance(value, str) and value:
         with about(keys.place("mesh")):
-            return read_model(_beside(folder, value))
+            return read_model(sources.path(value))
     if value is None or isinstance(value, str):
         raise InputError(f"{where} needs a mesh: the path of a file, relative to the scene file")
     if isinstance(value, Mapping) and "piece" in value:
-        return [MeshPart(_mesh_of_piece(keys.table("mesh", _PIECE)))]
+        return [MeshPart(_mesh_of_piece(keys.table("mesh", _PIECE), sources))]
     inside = keys.table("mesh", keys_of("Mesh"))
     # with alpha if the first row has one
     has_alpha = any(isinstance(row, list) and len(row) == 4 for _, row in inside.rows("colors")[:1])
@@ -239,26 +259,17 @@ def _parts(keys: Table, where: str, folder: Path | None) -> list[MeshPart]:
     return [MeshPart(mesh)]
 
 
-def _beside(folder: Path | None, name: str) -> Path:
-    if folder is None:
-        raise InputError(f"a link cannot name files, such as {name!r:.60}; save a scene file in the Creator instead")
-    return inside(folder, folder / name, name)
-
-
-def _mesh_of_piece(keys: Table) -> Mesh:
+def _mesh_of_piece(keys: Table, sources: Sources) -> Mesh:
     """Return the mesh of an object of a piece of a dataset, in its own coordinates."""
-    # a dataset is made of scenes
-    from ...datasets import require
-
     name = keys.get("piece")
     if not isinstance(name, str):
         raise InputError(f"{keys.place('piece')} must be the name of a piece, not {name!r:.60}")
     with about(keys.place("piece")):
-        objects = require(name).make().objects
+        objects = sources.piece(name).objects
     return objects[keys.index("object", len(objects), "objects", 0)].mesh
 
 
-def _texture(surface: Table, folder: Path | None) -> Texture:
+def _texture(surface: Table, sources: Sources) -> Texture:
     """Return a texture: the path of an image, relative to the scene file, or its pixels."""
     keys = Table({"image": value}, "") if isinstance(value := surface.get("texture"), str) else None
     keys = keys or surface.table("texture", keys_of("Texture"))
@@ -270,7 +281,7 @@ def _texture(surface: Table, folder: Path | None) -> Texture:
             image = keys.get("image")
             if not isinstance(image, str) or not image:
                 raise InputError("a texture needs an image: the path of a file, relative to the scene file")
-            return Texture.open(_beside(folder, image), filter, wrap, alpha=keys.flag("alpha", False), cutoff=cutoff)
+            return Texture.open(sources.path(image), filter, wrap, alpha=keys.flag("alpha", False), cutoff=cutoff)
         width, height = keys.whole("width"), keys.whole("height")
         alpha = _levels(keys, "alpha", (height, width), "bytes") if "alpha" in keys else None
         pixels = _levels(keys, "pixels", (height, width, 3), "red, green and blue bytes")

@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 from numpy.typing import NDArray
 
+from ...base.values import plural
 from ...errors import InputError, warn
-from ...values import plural
 from .._mesh import DEFAULT_COLOR, weld
 from .content import plain_text, read_content, with_points
 from .model import MeshPart

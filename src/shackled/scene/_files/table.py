@@ -10,7 +10,7 @@ from typing import Any, TypeVar, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from ...checks import COLORS, Color, color
+from ...base.checks import COLORS, Color, color
 from ...errors import InputError
 
 Word = TypeVar("Word", bound=str)

@@ -4,41 +4,23 @@ from __future__ import annotations
 
 import base64
 import json
-from typing import TYPE_CHECKING, Any
+from collections.abc import Mapping
+from typing import Any
 
 from attrs import asdict
 
+from .._camera import Camera
 from .._effects import Background, Fog, Hemisphere, Rim
 from .._ground import Ground
 from .._light import Light
-from .._settings import Part, settings_of
+from .._object import Object
+from .._settings import ScenePart, settings_of
 from .._table import keys_of
 from .._texture import Texture
 
-if TYPE_CHECKING:
-    from .._scene import Scene
 
-
-def encode_scene_file(scene: Scene) -> bytes:
-    """Return the bytes of a scene file in JSON, such that loading it gives the same scene."""
-    document = {
-        "size": [scene.width, scene.height],
-        **_fields(scene, "scene"),
-        **({} if scene.tone is None else {"tone": _fields(scene.tone, "tone")}),
-        "camera": asdict(scene.camera, filter=_is_given),
-        "objects": [
-            {
-                "mesh": {name: value for name in keys_of("Mesh") if (value := getattr(thing.mesh, name)) is not None},
-                "position": thing.position,
-                "rotation": {"quaternion": thing.rotation},
-                "scale": thing.scale,
-                "material": {**_fields(thing.material, "material"), **_texture_keys(thing.material.texture)},
-                **_fields(thing, "object"),
-                **({} if thing.fade is None else {"fade": list(thing.fade)}),
-            }
-            for thing in scene.objects
-        ],
-    }
+def encode_document(document: Mapping[str, Any]) -> bytes:
+    """Return the bytes of a scene file in JSON; the document has the parts of a scene as they are in Python."""
     return f"{json.dumps(document, default=_plain)}\n".encode("ascii")
 
 
@@ -46,7 +28,7 @@ def _is_given(_: object, value: object) -> bool:
     return value is not None
 
 
-def _fields(value: object, part: Part) -> dict[str, Any]:
+def fields_of(value: object, part: ScenePart) -> dict[str, Any]:
     """Return the settings that are fields of a value and not None; an object has no colour of its own."""
     fields = {each.name: getattr(value, each.name, None) for each in settings_of(part)}
     return {name: found for name, found in fields.items() if found is not None}
@@ -62,9 +44,19 @@ def _texture_keys(texture: Texture | None) -> dict[str, Any]:
 
 
 def _plain(value: Any) -> Any:
-    """Return what JSON has for an array, or for a background, a light or an effect."""
-    if isinstance(value, Background | Hemisphere | Rim | Fog | Ground):
+    """Return what JSON has for an array, or for a part of a scene."""
+    if isinstance(value, Background | Camera | Hemisphere | Rim | Fog | Ground):
         return asdict(value, filter=_is_given)
+    if isinstance(value, Object):
+        return {
+            "mesh": {name: part for name in keys_of("Mesh") if (part := getattr(value.mesh, name)) is not None},
+            "position": value.position,
+            "rotation": {"quaternion": value.rotation},
+            "scale": value.scale,
+            "material": {**fields_of(value.material, "material"), **_texture_keys(value.material.texture)},
+            **fields_of(value, "object"),
+            **({} if value.fade is None else {"fade": value.fade}),
+        }
     if not isinstance(value, Light):
         return value.tolist()
     place = "direction" if value.kind == "directional" else "position"

@@ -13,8 +13,8 @@ from urllib.parse import unquote, unquote_to_bytes
 import numpy as np
 from numpy.typing import NDArray
 
+from ....base.values import plural
 from ....errors import InputError
-from ....values import plural
 from ..beside import read_beside
 from ..content import parse, read_bytes, read_content
 from ..images import Images

@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image
 
-from ....checks import Color
+from ....base.checks import Color
 from ....errors import InputError, warn
 from ..._mesh import DEFAULT_COLOR
 from ..._texture import Filter, as_rgb, cutoff_of, open_image, to_srgb, with_alpha

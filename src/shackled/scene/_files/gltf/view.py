@@ -11,8 +11,8 @@ import numpy as np
 from attrs import evolve
 from numpy.typing import ArrayLike, NDArray
 
+from ....base.values import plural
 from ....errors import InputError, warn
-from ....values import plural
 from ..._arithmetic import units
 from ..._camera import Camera
 from ..._light import LIGHT_KINDS, MAX_LIGHTS, Light

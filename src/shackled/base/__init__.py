@@ -1,0 +1,1 @@
+"""What all packages use: checks of arguments, values, files, processes, and synonyms of keywords."""
