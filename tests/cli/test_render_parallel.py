@@ -162,7 +162,7 @@ def marked(mark: str) -> set[int]:
 
 
 def test_a_picture_that_cannot_be_written_keeps_its_parts(shackled: Shackled, monkeypatch: pytest.MonkeyPatch) -> None:
-    def full_but_for_parts(path: Path, data: bytes) -> None:
+    def full_but_for_parts(path: Path, data: bytes, is_verified: bool = False) -> None:
         if path.suffix == ".png":
             raise OSError(28, "No space left on device")
         write_whole(path, data)

@@ -277,7 +277,7 @@ def test_halves_of_an_earlier_run_are_taken(tmp_path: Path) -> None:
 
 
 def test_a_full_disk_ends_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def full(path: Path, data: bytes) -> None:
+    def full(path: Path, data: bytes, is_verified: bool = False) -> None:
         raise OSError(28, "No space left on device")
 
     store = PartStore(tmp_path / "parts", [SCENE])
