@@ -130,7 +130,7 @@ def thumbnail(piece: Piece) -> str:
     """Return a small picture as a data URL: that of the contracts, of which four pixels become one."""
     with Image.open(io.BytesIO(draw(piece, 2 * THUMBNAIL).png)) as picture:
         small = picture.resize((THUMBNAIL, THUMBNAIL), Image.Resampling.BOX)
-    return "data:image/webp;base64," + base64.b64encode(encoded(small, "webp", quality=72, method=6)).decode()
+    return "data:image/webp;base64," + base64.b64encode(encoded(small, "webp", quality=62, method=6)).decode()
 
 
 def encoded(picture: Image.Image, kind: str, **options: Any) -> bytes:

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import os
 import random
-import subprocess
 import sys
 import time
 from collections import Counter
+from contextlib import ExitStack
 from pathlib import Path
 
 import pytest
 import wasmtime
+from tools.children import child
 
 import stores
 from evms import ADDRESS, Ours
@@ -216,7 +217,8 @@ ROUNDS = (200_000).to_bytes(32, "big")
 
 PROGRAM = f"""
 import sys, threading
-from shackled.evm import Instance, _compiled
+from shackled.evm import _compiled
+from shackled.evm._instance import Instance
 _compiled.SOME, _compiled.MUCH = 1, 2
 made = Instance()
 made.put(bytes(20), bytes.fromhex("{BUSY.hex()}"))
@@ -229,16 +231,14 @@ print(len(answers), len(_compiled._machine_code))
 """
 
 
-def start(cache: Path, **variables: str) -> subprocess.Popen[str]:
-    """Start a process that compiles a contract, with its cache in a folder."""
+def said(cache: Path, count: int = 1, **variables: str) -> str:
+    """Return what processes print that compile a contract at the same time, with their cache in a folder."""
     environment = os.environ | {"XDG_CACHE_HOME": str(cache), "SHACKLED_EVM": ""} | variables
-    return subprocess.Popen([sys.executable, "-c", PROGRAM], env=environment, stdout=-1, stderr=-1, text=True)
-
-
-def said(process: subprocess.Popen[str]) -> str:
-    output, errors = process.communicate(timeout=120)
-    assert (process.returncode, errors) == (0, "")
-    return output.strip()
+    with ExitStack() as stack:
+        started = [stack.enter_context(child(sys.executable, "-c", PROGRAM, env=environment)) for _ in range(count)]
+        ended = [(*process.communicate(timeout=120), process.returncode) for process in started]
+    assert all(end == (ended[0][0], "", 0) for end in ended), ended
+    return ended[0][0].strip()
 
 
 def files(cache: Path) -> list[Path]:
@@ -251,16 +251,16 @@ needs_linux = pytest.mark.skipif(sys.platform != "linux", reason="sets the cache
 @needs_linux
 def test_machine_code_is_kept_for_later_processes(tmp_path: Path) -> None:
     """Also where several compile at once; what is damaged, or could be another's, is compiled again."""
-    assert [said(process) for process in [start(tmp_path), start(tmp_path)]] == ["1 1", "1 1"]
+    assert said(tmp_path, 2) == "1 1"
     (path,) = files(tmp_path)
     whole, kept = path.read_bytes(), path.stat().st_mtime_ns
-    assert said(start(tmp_path)) == "1 1"
+    assert said(tmp_path) == "1 1"
     assert path.stat().st_mtime_ns == kept
     path.write_bytes(whole[:-1])
-    assert said(start(tmp_path)) == "1 1"
+    assert said(tmp_path) == "1 1"
     assert path.stat().st_size > len(whole) - 1
     path.chmod(0o666)
-    assert said(start(tmp_path)) == "1 1"
+    assert said(tmp_path) == "1 1"
     assert path.stat().st_mode & 0o777 == 0o600
 
 
@@ -268,8 +268,8 @@ def test_machine_code_is_kept_for_later_processes(tmp_path: Path) -> None:
 def test_where_nothing_can_be_kept(tmp_path: Path) -> None:
     """A folder that is a file, and a device that is full."""
     (tmp_path / "shackled").write_text("")
-    assert said(start(tmp_path)) == "1 1"
-    assert said(start(Path("/dev/full"))) == "1 1"
+    assert said(tmp_path) == "1 1"
+    assert said(Path("/dev/full")) == "1 1"
 
 
 @needs_linux
@@ -279,14 +279,14 @@ def test_the_cache_is_bounded(tmp_path: Path) -> None:
         path = tmp_path / "shackled" / f"code-{number}.bin"
         path.write_text("")
         os.utime(path, (number, number))
-    assert said(start(tmp_path)) == "1 1"
+    assert said(tmp_path) == "1 1"
     assert len(files(tmp_path)) == _compiled.MOST_FILES
     assert not (tmp_path / "shackled" / "code-20.bin").exists()
 
 
 def test_the_variable(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    assert said(start(tmp_path, SHACKLED_EVM="interpreter")) == "1 0"
-    assert said(start(tmp_path, SHACKLED_EVM="compiled")) == "1 1"
+    assert said(tmp_path, SHACKLED_EVM="interpreter") == "1 0"
+    assert said(tmp_path, SHACKLED_EVM="compiled") == "1 1"
     monkeypatch.setenv("SHACKLED_EVM", "jit")
     with pytest.raises(InputError, match=r"^SHACKLED_EVM must be `interpreter` or `compiled`, not 'jit'$"):
         Instance()
