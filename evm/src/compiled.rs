@@ -1,11 +1,7 @@
 //! Frames in compiled code: what a module of `compile` finds at entry, and the functions that it calls.
 
 use revm::{
-    interpreter::{
-        CallInput, Interpreter,
-        interpreter::EthInterpreter,
-        interpreter_types::{InputsTr, Jumps, MemoryTr},
-    },
+    interpreter::{Interpreter, interpreter::EthInterpreter, interpreter_types::Jumps},
     primitives::U256,
 };
 use shackled_compile::{Calculation, State};
@@ -55,13 +51,9 @@ impl Compiled {
 
 /// Notes where memory and the data of the call are.
 fn find_memory(state: &mut State, interpreter: &mut Interpreter<EthInterpreter>) {
-    let size = interpreter.memory.size();
-    let (data, data_size) = match interpreter.input.input() {
-        CallInput::Bytes(bytes) => (bytes.as_ptr(), bytes.len()),
-        CallInput::SharedBuffer(range) => (interpreter.memory.global_slice(range.clone()).as_ptr(), range.len()),
-    };
+    let ((memory, size), (data, data_size)) = crate::fast::buffers(interpreter);
+    (state.memory, state.size) = (memory as u32, size as u32);
     (state.data, state.data_size) = (data as u32, data_size as u32);
-    (state.memory, state.size) = (interpreter.memory.slice_mut(0, size).as_mut_ptr() as u32, size as u32);
 }
 
 /// Lets memory grow to hold `end` bytes; returns the gas that is left, or -1 if less than `keep` would be.
@@ -127,8 +119,8 @@ pub unsafe extern "C" fn copy(state: *mut State, to: u32, from: u32, count: u32,
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn calculate(state: *mut State, calculation: Calculation) {
     use revm::interpreter::instructions::i256::{i256_div, i256_mod};
-    let operands = unsafe { &mut (*state).operands };
-    let [a, b, c] = operands.map(U256::from_limbs);
+    let state = unsafe { &mut *state };
+    let [a, b, c] = state.operands.map(U256::from_limbs);
     let result = match calculation {
         Calculation::Divide => a.checked_div(b).unwrap_or_default(),
         Calculation::DivideSigned => i256_div(a, b),
@@ -137,23 +129,19 @@ pub unsafe extern "C" fn calculate(state: *mut State, calculation: Calculation) 
         Calculation::AddMod => a.add_mod(b, c),
         Calculation::MulMod => a.mul_mod(b, c),
         Calculation::ExtendSign => crate::fast::extend_sign(a, b),
+        Calculation::ReadData => read_data(state, a),
     };
-    operands[0] = *result.as_limbs();
+    state.operands[0] = *result.as_limbs();
 }
 
-/// Reads a word of the data of the call, at the place in the first operand, which it replaces. Zeros follow the data.
-///
-/// # Safety
-/// As `grow`.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn read_data(state: *mut State) {
-    let state = unsafe { &mut *state };
+/// Reads a word of the data of the call. Zeros follow the data.
+fn read_data(state: &State, place: U256) -> U256 {
+    // SAFETY: `find_memory` notes where the data is, which does not move while compiled code runs
     let data = unsafe { std::slice::from_raw_parts(state.data as usize as *const u8, state.data_size as usize) };
     let mut bytes = [0; size_of::<U256>()];
-    let place = usize::try_from(U256::from_limbs(state.operands[0])).unwrap_or(usize::MAX);
-    if let Some(rest) = data.get(place..) {
+    if let Some(rest) = usize::try_from(place).ok().and_then(|place| data.get(place..)) {
         let count = rest.len().min(bytes.len());
         bytes[..count].copy_from_slice(&rest[..count]);
     }
-    state.operands[0] = *U256::from_be_bytes(bytes).as_limbs();
+    U256::from_be_bytes(bytes)
 }

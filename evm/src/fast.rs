@@ -29,12 +29,7 @@ pub fn run(interpreter: &mut Interpreter<EthInterpreter>) {
     let code = interpreter.bytecode.bytes_ref().as_ptr();
     let table = interpreter.bytecode.legacy_jump_table().expect("legacy bytecode");
     let (jumps, jump_count) = (table.as_slice().as_ptr(), table.len());
-    let size = interpreter.memory.size();
-    let memory = interpreter.memory.slice_mut(0, size).as_mut_ptr();
-    let (data, data_size) = match interpreter.input.input() {
-        CallInput::Bytes(bytes) => (bytes.as_ptr(), bytes.len()),
-        CallInput::SharedBuffer(range) => (interpreter.memory.global_slice(range.clone()).as_ptr(), range.len()),
-    };
+    let ((memory, size), (data, data_size)) = buffers(interpreter);
     let bottom = interpreter.stack.data_mut().as_mut_ptr();
     let start = interpreter.bytecode.pc();
     let mut at = start;
@@ -308,6 +303,18 @@ fn is_zero(value: &U256) -> bool {
 #[inline(always)]
 fn sign(value: &U256) -> u64 {
     (value.as_limbs()[3] as i64 >> 63) as u64
+}
+
+/// Returns where the memory and the data of a call are, with their sizes in bytes.
+#[inline(always)]
+pub fn buffers(interpreter: &mut Interpreter<EthInterpreter>) -> ((*mut u8, usize), (*const u8, usize)) {
+    let size = interpreter.memory.size();
+    let memory = interpreter.memory.slice_mut(0, size).as_mut_ptr();
+    let data = match interpreter.input.input() {
+        CallInput::Bytes(bytes) => (bytes.as_ptr(), bytes.len()),
+        CallInput::SharedBuffer(range) => (interpreter.memory.global_slice(range.clone()).as_ptr(), range.len()),
+    };
+    ((memory, size), data)
 }
 
 /// Extends the sign of a number whose highest byte is that of an index, from the lowest.

@@ -12,7 +12,8 @@ WORD, REACH = 32, 64
 #: Bytes of the state that compiled code writes: end of the stack; position, gas and whether it gave up; operands.
 WRITABLE = [(0, 4), (28, 44), (56, 152)]
 #: Functions that are imported: the first lets memory grow.
-IMPORTED = ["grow", "copy", "calculate", "read_data", "memory"]
+IMPORTED = ["grow", "copy", "calculate", "memory"]
+#: Functions before the regions: helpers, and `run`.
 HELPERS = 11
 WIDTHS = {0x36: 4, 0x37: 8, 0x3A: 1, 0x3C: 1}
 
@@ -176,8 +177,9 @@ class Function:
 
     def call(self, function: int) -> None:
         """Follow a call: its arguments, and how many results it has."""
-        takes, leaves = {0: (4, 1), 1: (6, 1), 2: (2, 0), 3: (1, 0), 4: (2, 2)}.get(function, (8, 4))
-        takes += function >= HELPERS - 1
+        takes, leaves = {0: (4, 1), 1: (6, 1), 2: (2, 0), 3: (2, 2)}.get(function, (8, 4))
+        # the last four divide, and take the state of the frame too
+        takes += function >= len(IMPORTED) - 1 + HELPERS - 1 - 4
         arguments = [self.pop() for _ in range(takes)][::-1]
         self.moves += function < 2
         if function == 0:

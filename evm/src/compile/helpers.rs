@@ -3,19 +3,18 @@
 
 use crate::{
     function::{Function, Limb, Limbs, NOUGHT, Op, at},
+    state::{Calculation, State},
     types,
 };
-use crate::state::{Calculation, State};
 use std::{array::from_fn, mem::offset_of};
 use wasm_encoder::{BlockType, ValType};
 
 /// Functions of evm.wasm that a module imports, in the order of their indices.
-pub const IMPORTS: [(&str, u32); 4] =
-    [("grow", types::GROW), ("copy", types::COPY), ("calculate", types::CALCULATE), ("read_data", types::ON_STATE)];
+pub const IMPORTS: [(&str, u32); 3] =
+    [("grow", types::GROW), ("copy", types::COPY), ("calculate", types::CALCULATE)];
 pub const GROW: u32 = 0;
 pub const COPY: u32 = 1;
 const CALCULATE: u32 = 2;
-pub const READ_DATA: u32 = 3;
 
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub enum Helper {

@@ -5,11 +5,11 @@
 
 use crate::{
     function::{Limb, Limbs, NOUGHT, at},
-    helpers::{COPY, GROW, READ_DATA},
+    helpers::{COPY, GROW, calculate},
     region::{GAS, MEMORY, Region, SIZE, STATE},
+    state::{Calculation, State},
     words::Word,
 };
-use crate::state::State;
 use revm::primitives::U256;
 use std::mem::offset_of;
 use wasm_encoder::{BlockType, InstructionSink, ValType};
@@ -158,13 +158,9 @@ impl Region<'_> {
             self.f.push(limb).local_set(local);
         }
         self.f.put().else_();
-        for (i, limb) in limbs.into_iter().enumerate() {
-            self.f.get(STATE);
-            self.f.push(limb).i64_store(at(offset_of!(State, operands) + 8 * i));
-        }
-        self.f.get(STATE).call(READ_DATA);
-        for (i, local) in result.into_iter().enumerate() {
-            self.f.get(STATE).i64_load(at(offset_of!(State, operands) + 8 * i)).local_set(local);
+        let read = calculate(&mut self.f, STATE, Calculation::ReadData, &[limbs]);
+        for (limb, local) in read.into_iter().zip(result) {
+            self.f.push(limb).local_set(local);
         }
         self.f.put().end();
         Word::Limbs(result.map(Limb::Local))

@@ -5,10 +5,10 @@ use crate::{
     helpers::{Helper, calculate},
     immediate_size,
     region::{REACH, Region, STATE},
+    state::{Calculation, State},
     types,
     words::{Word, known, small},
 };
-use crate::state::{Calculation, State};
 use revm::{bytecode::opcode::*, primitives::U256};
 use std::mem::offset_of;
 use wasm_encoder::{BlockType, ValType};

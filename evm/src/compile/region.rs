@@ -7,9 +7,9 @@
 use crate::{
     Plan,
     function::{Function, Limb, Limbs, NOUGHT, at},
+    state::State,
     words::Word,
 };
-use crate::state::State;
 use std::{array::from_fn, mem::offset_of};
 use wasm_encoder::{BlockType, ValType};
 

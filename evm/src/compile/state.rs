@@ -33,4 +33,6 @@ pub enum Calculation {
     AddMod,
     MulMod,
     ExtendSign,
+    /// The word of the data of the call at a place; zeros follow the data.
+    ReadData,
 }
