@@ -113,9 +113,9 @@ def web_rows(table: Table) -> Iterator[tuple[str, str, dict[str, Row]]]:
 
 def described(row: Row, brackets: str, *more: str) -> Iterator[tuple[str, str]]:
     """Yield what code is told of a field, as names and literals; in Python lists are tuples."""
-    for name, key in (("kind",) * 2, ("limits", "range"), *((each,) * 2 for each in ("choices", "default", *more))):
-        if key in row:
-            yield name, literal(row[key], brackets)
+    for name in ("kind", "limits", "choices", "default", *more):
+        if name in row:
+            yield name, literal(row[name], brackets)
 
 
 def literal(value: Any, brackets: str) -> str:
@@ -143,12 +143,17 @@ def python(table: Table) -> str:
     for name, rows in rows_of(table).items():
         lines.append(f'    "{name}": {{')
         for key, row in rows.items():
-            pattern = table[name].get("called", "the {}").removeprefix("the " if row.get("kind") == "flag" else "-")
-            called = row.get("called", pattern.format("colour" if key == "color" else key))
+            called = table[name].get("called", "the {}").format("colour" if key == "color" else key)
+            called = row.get("called", called.removeprefix("the ") if row.get("kind") == "flag" else called)
             more = [f", {name}={value}" for name, value in described(row, "()", "needed", "only", "lights")]
             lines.append(f'        "{key}": Field({json.dumps(called)}{"".join(more)}),')
         lines.append("    },")
     return "\n".join([*lines, "}", ""])
+
+
+def python_comment(text: str) -> list[str]:
+    """Return a text as a comment of Python."""
+    return textwrap.wrap(text, WIDTH, initial_indent="#: ", subsequent_indent="#: ")
 
 
 # ---- TypeScript ----
@@ -194,7 +199,7 @@ def remark(row: Row) -> str:
 
 def ranged(row: Row, both: str, least: str) -> str:
     """Return the text of a field with its range at the end of the first clause."""
-    limits = row.get("range", [])
+    limits = row.get("limits", [])
     shown = row.get("shown", (both if len(limits) == 2 else least).format(*limits) if limits else "")
     first, mark, rest = re.fullmatch(r"(.*?)(?:([;.]) (.*))?", row["text"]).groups("")  # type: ignore[union-attr]
     return f"{first}{', ' * bool(shown)}{shown}{mark and mark + ' '}{rest}"
@@ -291,11 +296,10 @@ def key_row(key: str, row: Row) -> str:
 def files() -> dict[Path, str]:
     """Return the text of every file that is made of the table."""
     table = tomllib.loads(TABLE.read_text("utf-8"))
-    hash_comment = lambda text: textwrap.wrap(text, WIDTH, initial_indent="#: ", subsequent_indent="#: ")  # noqa: E731
     title = f"Numbers by which scenes are prepared. {MADE}"
     return {
         PACKAGE / "_fields.py": python(table),
-        PACKAGE / "_constants.py": constants(table, f'"""{title}"""\n', "{} = {}", "()", hash_comment),
+        PACKAGE / "_constants.py": constants(table, f'"""{title}"""\n', "{} = {}", "()", python_comment),
         WEB / "types.ts": types(table),
         WEB / "fields.ts": fields(table),
         WEB / "constants.ts": constants(table, f"// {title}\n", "export const {} = {};", "[]", comment),

@@ -9,12 +9,12 @@ from contextlib import ExitStack
 import numpy as np
 
 from ..chain._chain import Drawing
+from ..chain._layout import BAND_PIXELS
 from ..errors import caller
 from ..image import Image, decode_bmp, total
 from ..scene._codec import Rectangle
 from ..scene._scene import Scene
 from ._backends import SAMPLE, Backend, Part, Verifier
-from ._bands import BAND_PIXELS
 from ._estimate import Estimate, estimate
 from ._scheduler import Listener, Outline, Scheduler
 from ._store import PartStore

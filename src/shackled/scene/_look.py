@@ -13,9 +13,10 @@ from ..base.checks import Color, Floats
 from ..errors import InputError
 from . import _constants as constant
 from ._arithmetic import IDENTITY, dot, length, multiply, rotate
-from ._camera import DEFAULT_HALF_HEIGHT, Camera, Projection, half_height_in
+from ._camera import DEFAULT_HALF_HEIGHT, Camera, half_height_in
 from ._crease import is_flat, shaded, with_normals
 from ._effects import Fog, Tone
+from ._fields import Projection
 from ._mesh import Mesh
 from ._object import Material, Object
 from ._presets import preset_of
