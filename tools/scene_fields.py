@@ -270,19 +270,20 @@ def constants(table: Table, title: str, line: str, brackets: str, remark: Callab
 # ---- documentation ----
 
 
-def keys(table: Table, name: str) -> str | None:
-    """Return the table of the keys of a class, by the name of its marks; a scene has those without marks, too."""
-    classes = rows_of(table)
-    pages = {table[each]["page"]: rows for each, rows in classes.items() if "page" in table[each]}
-    # of a class without a table of its own, where a scene has it
-    inside = {each.lower(): rows for each, rows in classes.items() if "page" not in table[each]}
-    lines = ["| key | value | default |", "|---|---|---|"]
-    for key, row in pages.get(name, {}).items():
-        if row.get("only") != "class":
-            lines.append(key_row(key, row))
-            own = inside.get(key, {}) if name == "scene" else {}
-            lines += [key_row(f"{key}.{each}", more) for each, more in own.items()]
-    return "\n".join(lines) if name in pages else None
+def keys(table: Table) -> dict[str, str]:
+    """Return the tables of the keys of classes by their marks; that of a scene has classes without marks, too."""
+    classes, found = rows_of(table), {}
+    inside = {name.lower(): rows for name, rows in classes.items() if "page" not in table[name]}
+    for name, rows in classes.items():
+        if "page" not in table[name]:
+            continue
+        lines = ["| key | value | default |", "|---|---|---|"]
+        for key, row in rows.items():
+            if row.get("only") != "class":
+                own = inside.get(key, {}) if name == "Scene" else {}
+                lines += [key_row(key, row), *(key_row(f"{key}.{each}", more) for each, more in own.items())]
+        found[table[name]["page"]] = "\n".join(lines)
+    return found
 
 
 def key_row(key: str, row: Row) -> str:
@@ -303,5 +304,5 @@ def files() -> dict[Path, str]:
         WEB / "types.ts": types(table),
         WEB / "fields.ts": fields(table),
         WEB / "constants.ts": constants(table, f"// {title}\n", "export const {} = {};", "[]", comment),
-        PAGE: filled(PAGE, lambda name: keys(table, name)),
+        PAGE: filled(PAGE, keys(table).get),
     }
