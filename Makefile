@@ -99,7 +99,6 @@ build: $(NODE) $(DEV) ## compile the contracts into src/shackled/artifacts, bund
 
 generated: $(DEV) ## write the files that are made of tables, and the tables of README and docs
 	$(BIN)/python -m tools.generated
-	$(BIN)/python -m tools.readme
 
 npm: $(CONTRACTS) $(PACKAGE) ## build the npm package for contract authors into build/npm
 	$(BIN)/python -m tools.build_package
@@ -141,7 +140,7 @@ bench: $(NODE) page $(DEV) opengl browser ## measure, and write the tables of be
 	$(BIN)/python -m benchmarks.evms
 	$(BIN)/python -m benchmarks.view --write
 	$(BIN)/python -m benchmarks.preview
-	$(BIN)/python -m tools.readme
+	$(BIN)/python -m tools.generated
 
 paper: $(NODE) $(DEV) ## repeat the experiments of the paper: benchmarks/results, benchmarks/README.md
 	$(BIN)/shackled bench -o benchmarks/results
@@ -156,7 +155,7 @@ pictures: $(DEV) ## draw the pictures of the documentation, except those of tool
 	$(BIN)/python -m tools.docs.draw_preview
 	$(BIN)/python -m tools.docs.draw_library
 	$(BIN)/python -m tools.docs.draw_rules
-	$(BIN)/python -m tools.readme
+	$(BIN)/python -m tools.generated
 
 # ---- long runs ----
 

@@ -3,7 +3,7 @@
     python -m benchmarks.effects
 
 draws a square with one effect at a time, prints the gas for each pixel, and writes it into benchmarks/effects.json, of
-which `python -m tools.readme` makes the table of docs/light.md.
+which `python -m tools.generated` makes the table of docs/light.md.
 """
 
 from __future__ import annotations

@@ -20,7 +20,7 @@ from shackled import Scene, load, render
 from shackled.bench._measure import gas
 from shackled.gas import profile
 from shackled.gas._profile import KINDS
-from shackled.scene._object import Shading
+from shackled.scene._fields import Shading
 
 from . import antialiasing, cost, read_figures, run_main, shared, write_figures
 from .scenes import SECOND_LIGHT, staged_teapot

@@ -9,7 +9,7 @@ from shackled.bench.scenes import DISTANCE, GLOSSY, NIGHT, SUN, UNLIT, cube_mesh
 from shackled.datasets import teapot
 from shackled.scene import stage
 from shackled.scene._arithmetic import from_euler
-from shackled.scene._object import Shading
+from shackled.scene._fields import Shading
 from shackled.scene._settings import LookOptions
 
 #: About a thousand triangles, as the models of the cost table have.

@@ -11,9 +11,9 @@ import argparse
 
 from shackled import Scene, load
 from shackled.bench._report import millions, table
+from shackled.chain._layout import BAND_PIXELS
 from shackled.gas import profile
 from shackled.gas._stages import STAGES
-from shackled.parallel._bands import BAND_PIXELS
 
 from . import Section, run_main, shared
 from .scenes import staged_teapot

@@ -15,8 +15,8 @@ from tools.pages import ROOT, update
 
 from shackled import Camera, Light, Material, Mesh, Object, Scene, Texture, Tone, load, render
 from shackled.chain import open_chain
+from shackled.scene._fields import FILTERS
 from shackled.scene._packed import pack_texture
-from shackled.scene._texture import FILTERS
 from shackled.studio import store_scene
 
 from . import run_main

@@ -13,7 +13,7 @@ from attrs import evolve
 from shackled import Camera, Material, Mesh, Object, Scene
 from shackled.bench._measure import gas
 from shackled.bench.scenes import DISTANCE, NIGHT, SUN, grid
-from shackled.scene._object import Shading
+from shackled.scene._fields import Shading
 
 from .scenes import SECOND_LIGHT
 from .workload import workload_of

@@ -1,4 +1,4 @@
-"""Write the files that are made of tables.
+"""Write the files that are made of tables, and the tables of README and docs.
 
 python -m tools.generated            writes those that have changed, and names them
 python -m tools.generated --check    writes nothing; fails, and names the files that are not up to date
@@ -16,7 +16,17 @@ from pathlib import Path
 
 ROOT = Path(__file__).resolve().parent.parent
 #: The makers, in this order: modules of the package need what the first one writes.
-MAKERS = ("layout", "scene_fields", "presets", "lettering", "png_code", "library", "page_settings")
+MAKERS = (
+    "layout",
+    "scene_fields",
+    "presets",
+    "lettering",
+    "png_code",
+    "library",
+    "page_settings",
+    "virtual_functions",
+    "readme",
+)
 
 
 def stale(maker: str) -> dict[Path, str]:

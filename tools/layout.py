@@ -21,7 +21,6 @@ ROOT = Path(__file__).resolve().parent.parent
 TABLE = ROOT / "contracts" / "layout.toml"
 FOLDER = ROOT / "contracts" / "src" / "words"
 PACKAGE = ROOT / "src" / "shackled" / "chain" / "_layout.py"
-BANDS = ROOT / "src" / "shackled" / "parallel" / "_bands.py"
 #: The kinds of the records of Scene.extensions.
 KINDS = ROOT / "src" / "shackled" / "scene" / "_records.py"
 WEB_KINDS = ROOT / "web" / "src" / "scene" / "records.ts"
@@ -330,13 +329,11 @@ def used_names() -> set[str]:
     return set(re.findall(r"\blayout\.([A-Z]\w+)", PACKAGE.with_name("_engines.py").read_text("utf-8")))
 
 
-def bands() -> str:
-    """Return the text of the module of the number of pixels of a band, which the contracts have where they use it."""
+def bands() -> Section:
+    """Return the number of pixels of a band, which the contracts have where they use it."""
     text = (FOLDER.parent / "pipeline" / "Pipeline.sol").read_text("utf-8")
-    (pixels,) = re.findall(r"^uint256 constant (BAND_PIXELS = \d+);", text, re.MULTILINE)
-    return (
-        f'"""Pixels of a band in which a contract draws. Written by tools/layout.py from Pipeline.sol."""\n\n{pixels}\n'
-    )
+    (pixels,) = re.findall(r"^uint256 constant BAND_PIXELS = (\d+);", text, re.MULTILINE)
+    return Section("of pipeline/Pipeline.sol", "", (Constant("BAND_PIXELS", int(pixels)),))
 
 
 def wrapped(text: str, first: str, width: int, rest: str | None = None) -> list[str]:
@@ -359,8 +356,7 @@ def files() -> dict[Path, str]:
         FOLDER / "Records.sol": solidity(iter([kinds(table)]), version="^0.8.25"),
         KINDS: for_python,
         WEB_KINDS: for_web,
-        PACKAGE: python(iter([*common, *packed]), used_names()),
-        BANDS: bands(),
+        PACKAGE: python(iter([*common, *packed, bands()]), used_names() | {"BAND_PIXELS"}),
     }
     # each of the others is for fewer engines than the one before
     before = "Registers.sol"

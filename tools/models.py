@@ -33,7 +33,7 @@ from shackled.cli.picture import FilmOptions, Source, Task, Work
 from shackled.cli.progress import Notes
 from shackled.errors import InputWarning, ShackledError
 from shackled.gas._limits import fits_as_json
-from shackled.parallel.places import How
+from shackled.parallel.places import RenderOptions
 
 from .pages import ROOT, update
 
@@ -48,7 +48,7 @@ COMPANIONS = {".mtl", ".bin", ".png", ".jpg", ".jpeg", ".dds", ".tga", ".bmp", "
 PLATFORM = ("--python-version=3.11", "--platform=manylinux2014_x86_64", "--platform=manylinux_2_28_x86_64")
 WHEEL = ("-m", "pip", "download", "--quiet", "--no-deps", "--only-binary=:all:", *PLATFORM)
 #: The options of `shackled render`: none.
-DEFAULTS = Task({}, None, FilmOptions(), None, How())
+DEFAULTS = Task({}, None, FilmOptions(), None, RenderOptions())
 #: Of a contact sheet: pictures in a row, rows, side of a picture and height of its name in pixels.
 ACROSS, DOWN, SIDE, NAME = 4, 3, 256, 14
 

@@ -1,18 +1,13 @@
-"""Update tables of README.md and docs/: figures of benchmarks/ and of pictures.json, and the settings of a look.
-
-python -m tools.readme            writes them between the marks <!-- begin NAME --> and <!-- end NAME -->
-python -m tools.readme --check    writes nothing; fails if they are not up to date
-"""
+"""Make tables of README.md and docs/: figures of benchmarks/ and of pictures.json, and the settings of a look."""
 
 from __future__ import annotations
 
-import argparse
 import json
-import sys
+from pathlib import Path
 from typing import Any
 
 from shackled.scene._settings import SETTINGS
-from tools.pages import DOCS, IMAGES, ROOT, update
+from tools.pages import DOCS, IMAGES, ROOT, filled
 
 PAGES = (ROOT / "README.md", DOCS / "index.md", DOCS / "light.md", DOCS / "look.md")
 RESULTS = ROOT / "benchmarks" / "results.json"
@@ -99,14 +94,7 @@ def millions(gas: float) -> str:
     return f"{gas / 1e6:,.1f} million" if gas < 1e8 else f"{gas / 1e6:,.0f} million"
 
 
-def main() -> int:
-    """Update the figures, or check that they are up to date."""
-    parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
-    parser.add_argument("--check", action="store_true", help="write nothing; fail if they are not up to date")
-    check = parser.parse_args().check
+def files() -> dict[Path, str]:
+    """Return the texts of the pages, by their paths."""
     found = {each.__name__: each() for each in (costs, effects, pixels, scene, settings, tokens)}
-    return update(dict.fromkeys(PAGES, found.get), "python -m tools.readme", check)
-
-
-if __name__ == "__main__":
-    sys.exit(main())
+    return {page: filled(page, found.get) for page in PAGES}

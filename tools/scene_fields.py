@@ -113,9 +113,9 @@ def web_rows(table: Table) -> Iterator[tuple[str, str, dict[str, Row]]]:
 
 def described(row: Row, brackets: str, *more: str) -> Iterator[tuple[str, str]]:
     """Yield what code is told of a field, as names and literals; in Python lists are tuples."""
-    for name, key in (("kind",) * 2, ("limits", "range"), *((each,) * 2 for each in ("choices", "default", *more))):
-        if key in row:
-            yield name, literal(row[key], brackets)
+    for name in ("kind", "limits", "choices", "default", *more):
+        if name in row:
+            yield name, literal(row[name], brackets)
 
 
 def literal(value: Any, brackets: str) -> str:
@@ -143,12 +143,17 @@ def python(table: Table) -> str:
     for name, rows in rows_of(table).items():
         lines.append(f'    "{name}": {{')
         for key, row in rows.items():
-            pattern = table[name].get("called", "the {}").removeprefix("the " if row.get("kind") == "flag" else "-")
-            called = row.get("called", pattern.format("colour" if key == "color" else key))
+            called = table[name].get("called", "the {}").format("colour" if key == "color" else key)
+            called = row.get("called", called.removeprefix("the ") if row.get("kind") == "flag" else called)
             more = [f", {name}={value}" for name, value in described(row, "()", "needed", "only", "lights")]
             lines.append(f'        "{key}": Field({json.dumps(called)}{"".join(more)}),')
         lines.append("    },")
     return "\n".join([*lines, "}", ""])
+
+
+def python_comment(text: str) -> list[str]:
+    """Return a text as a comment of Python."""
+    return textwrap.wrap(text, WIDTH, initial_indent="#: ", subsequent_indent="#: ")
 
 
 # ---- TypeScript ----
@@ -194,7 +199,7 @@ def remark(row: Row) -> str:
 
 def ranged(row: Row, both: str, least: str) -> str:
     """Return the text of a field with its range at the end of the first clause."""
-    limits = row.get("range", [])
+    limits = row.get("limits", [])
     shown = row.get("shown", (both if len(limits) == 2 else least).format(*limits) if limits else "")
     first, mark, rest = re.fullmatch(r"(.*?)(?:([;.]) (.*))?", row["text"]).groups("")  # type: ignore[union-attr]
     return f"{first}{', ' * bool(shown)}{shown}{mark and mark + ' '}{rest}"
@@ -265,19 +270,20 @@ def constants(table: Table, title: str, line: str, brackets: str, remark: Callab
 # ---- documentation ----
 
 
-def keys(table: Table, name: str) -> str | None:
-    """Return the table of the keys of a class, by the name of its marks; a scene has those without marks, too."""
-    classes = rows_of(table)
-    pages = {table[each]["page"]: rows for each, rows in classes.items() if "page" in table[each]}
-    # of a class without a table of its own, where a scene has it
-    inside = {each.lower(): rows for each, rows in classes.items() if "page" not in table[each]}
-    lines = ["| key | value | default |", "|---|---|---|"]
-    for key, row in pages.get(name, {}).items():
-        if row.get("only") != "class":
-            lines.append(key_row(key, row))
-            own = inside.get(key, {}) if name == "scene" else {}
-            lines += [key_row(f"{key}.{each}", more) for each, more in own.items()]
-    return "\n".join(lines) if name in pages else None
+def keys(table: Table) -> dict[str, str]:
+    """Return the tables of the keys of classes by their marks; that of a scene has classes without marks, too."""
+    classes, found = rows_of(table), {}
+    inside = {name.lower(): rows for name, rows in classes.items() if "page" not in table[name]}
+    for name, rows in classes.items():
+        if "page" not in table[name]:
+            continue
+        lines = ["| key | value | default |", "|---|---|---|"]
+        for key, row in rows.items():
+            if row.get("only") != "class":
+                own = inside.get(key, {}) if name == "Scene" else {}
+                lines += [key_row(key, row), *(key_row(f"{key}.{each}", more) for each, more in own.items())]
+        found[table[name]["page"]] = "\n".join(lines)
+    return found
 
 
 def key_row(key: str, row: Row) -> str:
@@ -291,13 +297,12 @@ def key_row(key: str, row: Row) -> str:
 def files() -> dict[Path, str]:
     """Return the text of every file that is made of the table."""
     table = tomllib.loads(TABLE.read_text("utf-8"))
-    hash_comment = lambda text: textwrap.wrap(text, WIDTH, initial_indent="#: ", subsequent_indent="#: ")  # noqa: E731
     title = f"Numbers by which scenes are prepared. {MADE}"
     return {
         PACKAGE / "_fields.py": python(table),
-        PACKAGE / "_constants.py": constants(table, f'"""{title}"""\n', "{} = {}", "()", hash_comment),
+        PACKAGE / "_constants.py": constants(table, f'"""{title}"""\n', "{} = {}", "()", python_comment),
         WEB / "types.ts": types(table),
         WEB / "fields.ts": fields(table),
         WEB / "constants.ts": constants(table, f"// {title}\n", "export const {} = {};", "[]", comment),
-        PAGE: filled(PAGE, lambda name: keys(table, name)),
+        PAGE: filled(PAGE, keys(table).get),
     }

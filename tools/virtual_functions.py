@@ -1,22 +1,19 @@
-"""Write which contract implements each virtual function of an engine into contracts/README.md.
-
-python -m tools.virtual_functions            with --check it writes nothing, and fails if the table is not up to date
-"""
+"""Make the table of contracts/README.md of which contract implements each virtual function of an engine."""
 
 from __future__ import annotations
 
 import re
-import sys
 from functools import cache
+from pathlib import Path
 from typing import NamedTuple
 
 from shackled.artifacts import RENDERER
 from tools.build_contracts import CONTRACTS, SOURCES
-from tools.pages import update
+from tools.pages import filled
 
+PAGE = CONTRACTS / "README.md"
 CONTRACT = re.compile(r"^(?:abstract )?contract (\w+)(?: is ([\w, ]+))? \{\n(.*?)^\}", re.M | re.S)
 FUNCTION = re.compile(r"^    function (\w+)\([^;{]*?\)([^;{]*)(;|\{\s*\}|\{)", re.M)
-COMMAND = "python -m tools.virtual_functions"
 
 
 class Contract(NamedTuple):
@@ -70,5 +67,6 @@ def table() -> str:
     return "\n".join(lines)
 
 
-if __name__ == "__main__":
-    sys.exit(update({CONTRACTS / "README.md": lambda _: table()}, COMMAND, check="--check" in sys.argv[1:]))
+def files() -> dict[Path, str]:
+    """Return the text of the page, by its path."""
+    return {PAGE: filled(PAGE, lambda _: table())}

@@ -15,6 +15,7 @@ from .base.synonyms import Given, with_synonyms
 from .datasets._pieces import Piece, find, require
 from .errors import InputError
 from .scene._canvas import as_shown
+from .scene._fields import Axis
 from .scene._files.content import format_of, is_pipe, read_pipe, stored
 from .scene._files.gltf.animation import animation_length
 from .scene._files.gltf.view import read_view
@@ -34,7 +35,7 @@ from .scene._scene import Scene
 from .scene._settings import LookOptions, checked_look, settings_of
 from .scene._staging import MESH_STAGING
 from .scene._turning import frame_count
-from .scene._upright import Axis, axis_of_file, upright
+from .scene._upright import axis_of_file, upright
 
 #: Input of `load`. `Any`: arrays of vertices and faces, or a mesh or scene of trimesh, an optional package.
 Thing = str | os.PathLike[str] | Piece | Mesh | Object | Scene | Sequence[Any] | Any

@@ -16,7 +16,7 @@ from .errors import InputError, OutOfGasError, warn
 from .image import Image, render_whole, uncovered
 from .parallel._job import render_frames
 from .parallel._scheduler import Listener
-from .parallel.places import Embedded, How, On
+from .parallel.places import Embedded, On, RenderOptions
 from .scene._effects import Background
 from .scene._scene import Scene
 from .scene._settings import LookOptions
@@ -68,7 +68,7 @@ def render(
 
     Raises InputError for an invalid scene, ChainError if a call fails.
     """
-    scene, how = load_picture(thing, size, **look), How(on, gas_limit, tile, listener, keep, transparent)
+    scene, how = load_picture(thing, size, **look), RenderOptions(on, gas_limit, tile, listener, keep, transparent)
     if fit is not None:
         from .gas._fitting import fit_scene
 
@@ -110,7 +110,7 @@ def turntable(
         frames, no tiles, and `on` as in `shackled.studio.make_apng`.
     transparent: as in `render`.
     """
-    scene, how = load_picture(thing, size, **look), How(on, gas_limit, tile, listener, keep, transparent)
+    scene, how = load_picture(thing, size, **look), RenderOptions(on, gas_limit, tile, listener, keep, transparent)
     return turn(scene, frames, duration, how, one_call)
 
 
@@ -139,7 +139,7 @@ def animate(
     """
     scenes, length = load_frames(thing, frames, size, **look)
     shown = pace(length, frames) if duration is None else duration
-    return film(scenes, shown, How(on, gas_limit, tile, listener, keep, transparent))
+    return film(scenes, shown, RenderOptions(on, gas_limit, tile, listener, keep, transparent))
 
 
 def pace(length: float, frames: int) -> int:
@@ -147,7 +147,7 @@ def pace(length: float, frames: int) -> int:
     return round(min(max(1000 * length / frames, DURATIONS[0]), DURATIONS[1]))
 
 
-def turn(scene: Scene, frames: int, duration: int, how: How, one_call: bool = False) -> Animation:
+def turn(scene: Scene, frames: int, duration: int, how: RenderOptions, one_call: bool = False) -> Animation:
     """Render a full turn of a scene. The arguments are those of `turntable`."""
     if not one_call:
         return film(full_turn(scene, frames), duration, how)
@@ -161,7 +161,7 @@ def turn(scene: Scene, frames: int, duration: int, how: How, one_call: bool = Fa
     return Animation.of(make_apng(scene, frames, duration, on=on, gas_limit=how.gas_limit), duration)
 
 
-def film(scenes: Sequence[Scene], duration: int, how: How) -> Animation:
+def film(scenes: Sequence[Scene], duration: int, how: RenderOptions) -> Animation:
     """Render scenes of one size as the frames of an animation."""
     images = render_frames([each for scene in scenes for each in _drawn(scene, how)], how)
     if how.transparent:
@@ -169,7 +169,7 @@ def film(scenes: Sequence[Scene], duration: int, how: How) -> Animation:
     return Animation(images, duration)
 
 
-def picture(scene: Scene, how: How) -> Image:
+def picture(scene: Scene, how: RenderOptions) -> Image:
     """Render a scene, by one call or by several."""
     scenes, is_whole = _drawn(scene, how), how.is_one_call(scene)
     try:
@@ -187,7 +187,7 @@ def picture(scene: Scene, how: How) -> Image:
     return uncovered(images[0], images[1], scene) if how.transparent else images[0]
 
 
-def _drawn(scene: Scene, how: How) -> list[Scene]:
+def _drawn(scene: Scene, how: RenderOptions) -> list[Scene]:
     """Return what is drawn of a scene: itself or, for `uncovered`, the scene over black and over white."""
     if not how.transparent:
         return [scene]

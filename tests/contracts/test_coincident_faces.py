@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from pictures import draw
 from shackled import Camera, Light, Material, Mesh, Object, Scene, Tone
 from shackled.scene._codec import Rectangle
+from shackled.scene._fields import Shading
 from shackled.scene._in_range import in_range
-from shackled.scene._object import Shading
 
 Array = NDArray[np.float64]
 Rng = np.random.Generator

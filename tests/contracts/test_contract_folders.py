@@ -8,8 +8,6 @@ import re
 from graphlib import TopologicalSorter
 from pathlib import Path
 
-from tools import virtual_functions
-
 SOURCES = Path(__file__).resolve().parents[2] / "contracts" / "src"
 README = SOURCES.parent / "README.md"
 #: The folders of which each file computes a function of picture.py.
@@ -64,10 +62,8 @@ def test_the_readme_has_a_row_for_each_folder() -> None:
 
 
 def test_the_readme_says_which_file_answers() -> None:
-    table = virtual_functions.table()
-    assert f"-->\n{table}\n<!--" in README.read_text("utf-8"), f"run {virtual_functions.COMMAND}"
-    # as the sources say: Engine overrides it with nothing, and Wires is the last base of Wireframe
-    assert "| `drawEdges` | *nothing* (Engine) | Wires |" in table
+    """As the sources do: Engine overrides the function with nothing, and Wires is the last base of Wireframe."""
+    assert "| `drawEdges` | *nothing* (Engine) | Wires |" in README.read_text("utf-8")
 
 
 def test_files_say_which_function_of_the_definition_they_compute() -> None:

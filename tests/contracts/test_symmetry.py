@@ -18,10 +18,10 @@ from shackled.artifacts import artifact
 from shackled.datasets import teapot
 from shackled.scene import Hemisphere
 from shackled.scene._arithmetic import from_euler, rotate
+from shackled.scene._fields import Shading
 from shackled.scene._in_range import in_range
 from shackled.scene._look import MOST_TWO_SIDED, look_at
 from shackled.scene._mesh import vertex_normals
-from shackled.scene._object import Shading
 from test_fill_rule import edge_functions
 
 Array = NDArray[np.float64]

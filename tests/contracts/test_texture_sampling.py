@@ -13,8 +13,8 @@ from tools.ledger import World, call_data
 
 from compiler import needs_compiler
 from shackled import Texture
+from shackled.scene._fields import FILTERS, WRAPS
 from shackled.scene._packed import pack_texture
-from shackled.scene._texture import FILTERS, WRAPS
 
 NO_UVS = np.zeros((0, 2))
 ONE = 1 << 24

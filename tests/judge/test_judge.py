@@ -10,8 +10,8 @@ from picture import SAMPLES
 from pictures import WHITE, call_data, draw
 from random_scenes import TAME, random_scene
 from shackled import Background, Camera, Light, Material, Mesh, Object, Scene, Texture, load
+from shackled.scene._fields import Shading
 from shackled.scene._in_range import in_range
-from shackled.scene._object import Shading
 
 from . import Picture, Verdict, draw_in_tiles, judge, judge_pixels, render
 from .verdict import outside

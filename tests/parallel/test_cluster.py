@@ -27,7 +27,7 @@ from shackled.cli.app import run
 from shackled.parallel import Listener, _cluster
 from shackled.parallel._cluster import ClusterBackend
 from shackled.parallel._job import render_frames
-from shackled.parallel.places import How
+from shackled.parallel.places import RenderOptions
 from shackled.scene._codec import Rectangle
 from shackled.scene._turning import full_turn
 
@@ -45,14 +45,14 @@ def address() -> Iterator[str]:
 
 def test_a_turntable_on_two_workers(address: str) -> None:
     frames = full_turn(SCENE, 36)
-    there, here = render_frames(frames, How(Cluster(address))), render_frames(frames)
+    there, here = render_frames(frames, RenderOptions(Cluster(address))), render_frames(frames)
     assert there == [evolve(image, made_by=there[0].made_by) for image in here]
     assert there[0].made_by.endswith("2 workers")
 
 
 def test_tiles(address: str, monkeypatch: pytest.MonkeyPatch) -> None:
     """Workers have our contracts, so a lie is found only if that is asked for."""
-    draw, where = ClusterBackend.render, How(Cluster(address), tile=(48, 16))
+    draw, where = ClusterBackend.render, RenderOptions(Cluster(address), tile=(48, 16))
     right = render_frames([SCENE])[0].bmp
     assert render_frames([SCENE], where)[0].bmp == right
 
@@ -163,7 +163,7 @@ def test_workers_that_are_lost(
 
 def test_what_a_worker_says_is_told(address: str) -> None:
     with pytest.raises(ChainError, match=r"gas is not enough even for a tile of .*; raise `gas_limit`"):
-        render_frames([SCENE], How(Cluster(address), gas_limit=100_000))
+        render_frames([SCENE], RenderOptions(Cluster(address), gas_limit=100_000))
 
 
 def test_something_else_than_a_cluster() -> None:
@@ -187,7 +187,7 @@ def test_a_cluster_that_goes_away(capfd: pytest.CaptureFixture[str]) -> None:
 
     with cluster(1) as (address, process):
         with pytest.raises(ChainError, match=r"^the cluster failed: its scheduler cannot be reached any more; is it"):
-            render_frames(full_turn(SCENE, 200), How(Cluster(address), listener=Breaker()))
+            render_frames(full_turn(SCENE, 200), RenderOptions(Cluster(address), listener=Breaker()))
         # dask is quiet about it
         assert capfd.readouterr().err == ""
 
@@ -222,4 +222,4 @@ def test_workers_that_do_not_fit(found: str | None, message: str) -> None:
 def test_without_the_package(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(sys.modules, "distributed", None)
     with pytest.raises(InputError, match=r"pip install 'shackled\[cluster\]'"):
-        render_frames([SCENE], How(Cluster("tcp://127.0.0.1:1")))
+        render_frames([SCENE], RenderOptions(Cluster("tcp://127.0.0.1:1")))

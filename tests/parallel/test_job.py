@@ -20,7 +20,7 @@ from shackled.parallel._backends import ChainBackend
 from shackled.parallel._estimate import estimate
 from shackled.parallel._job import COMPARED_GAS, choose_verifier, plan, render_frames
 from shackled.parallel._scheduler import Outline
-from shackled.parallel.places import How
+from shackled.parallel.places import RenderOptions
 from shackled.scene._codec import Rectangle
 
 SCENE = evolve(load("teapot"), width=96, height=70)
@@ -34,16 +34,16 @@ def whole() -> Image:
 @pytest.mark.parametrize(
     "where",
     [
-        How(tile=(96, 10)),
-        How(tile=(17, 13)),
-        How(tile=(1000, 1000)),
-        How(gas_limit=4_000_000),
-        How(Processes(2, "revm")),
-        How(Processes(2), gas_limit=5_000_000),
+        RenderOptions(tile=(96, 10)),
+        RenderOptions(tile=(17, 13)),
+        RenderOptions(tile=(1000, 1000)),
+        RenderOptions(gas_limit=4_000_000),
+        RenderOptions(Processes(2, "revm")),
+        RenderOptions(Processes(2), gas_limit=5_000_000),
     ],
     ids=str,
 )
-def test_tiles_are_the_whole(whole: Image, where: How) -> None:
+def test_tiles_are_the_whole(whole: Image, where: RenderOptions) -> None:
     (image,) = render_frames([SCENE], where)
     assert image.bmp == whole.bmp
     assert (image.pixels == whole.pixels).all()
@@ -55,14 +55,14 @@ def test_tiles_are_the_whole(whole: Image, where: How) -> None:
 def test_parts_fit_their_gas() -> None:
     limit = 4_000_000
     chain = open_chain()
-    (image,) = render_frames([SCENE], How(gas_limit=limit))
+    (image,) = render_frames([SCENE], RenderOptions(gas_limit=limit))
     tiles = plan(SCENE, 1, [ChainBackend(chain, gas=limit)], estimate(SCENE), None)
     assert 1 < len(tiles) <= image.calls
     fitting = [chain.draw(SCENE, tile).gas for tile in tiles]
     assert sum(gas is not None and gas <= limit for gas in fitting) > len(tiles) // 2
     for on in (None, Processes(2)):
         with pytest.raises(ChainError, match=r"even for a tile of .*; raise `gas_limit` or use `max_triangles`$"):
-            render_frames([SCENE], How(on, gas_limit=500_000))
+            render_frames([SCENE], RenderOptions(on, gas_limit=500_000))
 
 
 def test_a_ground_covers_pixels() -> None:
@@ -80,7 +80,7 @@ def test_the_cost_is_told_about_right() -> None:
         assert gas is not None
         assert abs(estimate(scene).gas() / gas - 1) < 0.25
         listener = Told()
-        (image,) = render_frames([scene], How(gas_limit=16_777_216, listener=listener))
+        (image,) = render_frames([scene], RenderOptions(gas_limit=16_777_216, listener=listener))
         assert abs(listener.gas / (image.gas or 0) - 1) < 0.35
 
 
@@ -92,12 +92,12 @@ class Told(Listener):
 @pytest.mark.parametrize(
     ("scene", "how"),
     [
-        (Scene([], width=50, height=40), How(tile=(50, 7))),
-        (evolve(load("cube"), width=2048, height=48), How(gas_limit=6_000_000)),
+        (Scene([], width=50, height=40), RenderOptions(tile=(50, 7))),
+        (evolve(load("cube"), width=2048, height=48), RenderOptions(gas_limit=6_000_000)),
     ],
     ids=["empty", "wide"],
 )
-def test_other_scenes(scene: Scene, how: How) -> None:
+def test_other_scenes(scene: Scene, how: RenderOptions) -> None:
     assert render_frames([scene], how)[0].bmp == shackled.render(scene).bmp
 
 

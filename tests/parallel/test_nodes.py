@@ -19,7 +19,7 @@ from shackled.ethereum._encoding import PROXY
 from shackled.parallel import Listener
 from shackled.parallel._job import render_frames
 from shackled.parallel._scheduler import Outline
-from shackled.parallel.places import How
+from shackled.parallel.places import RenderOptions
 from shackled.scene._turning import full_turn
 
 SCENE = evolve(load("cube"), width=64, height=60)
@@ -68,7 +68,7 @@ def spun() -> list[Image]:
 
 def test_two_nodes_make_one_picture(node: str, right: Image) -> None:
     with anvil() as other:
-        (image,) = render_frames([SCENE], How(Nodes(node, other.url, node), tile=TILE))
+        (image,) = render_frames([SCENE], RenderOptions(Nodes(node, other.url, node), tile=TILE))
     assert image.bmp == right.bmp
     assert (image.triangles, image.covered_pixels) == (right.triangles, right.covered_pixels)
     assert image.calls == PARTS
@@ -79,7 +79,7 @@ def test_two_nodes_make_one_picture(node: str, right: Image) -> None:
 def test_a_node_that_fails_now_and_then(node: str, right: Image, manner: str) -> None:
     asked: list[str] = []
     with proxy(node, each_third(manner), asked) as url:
-        (image,) = render_frames([SCENE], How(Nodes(url), tile=TILE))
+        (image,) = render_frames([SCENE], RenderOptions(Nodes(url), tile=TILE))
     assert image.bmp == right.bmp
     # a call for each part, and one more for each that failed: of three calls, two are right
     assert asked.count(manner) >= PARTS // 2
@@ -99,11 +99,11 @@ def test_a_node_that_fails_now_and_then(node: str, right: Image, manner: str) ->
 def test_a_node_that_always_fails(node: str, right: Image, manner: str, message: str) -> None:
     with proxy(node, always(manner)) as url:
         with pytest.raises(ChainError, match=message) as error:
-            render_frames([SCENE], How(Nodes(url), tile=TILE))
+            render_frames([SCENE], RenderOptions(Nodes(url), tile=TILE))
         assert "\n" not in str(error.value)
         # with another one beside it, the picture is made
         notes = Notes()
-        (image,) = render_frames([SCENE], How(Nodes(url, node), tile=TILE, listener=notes))
+        (image,) = render_frames([SCENE], RenderOptions(Nodes(url, node), tile=TILE, listener=notes))
     assert image.bmp == right.bmp
     assert all("it is left out" in warning for warning in notes.warnings)
     # whoever did nothing for it is not named
@@ -118,13 +118,13 @@ def test_a_lie_in_any_tile_is_found(node: str, spun: list[Image], lie: int) -> N
     where = f"the tile of 64 x 16 pixels at (0, {lie % 4 * 16}) of frame {lie // 4}"
     with proxy(node, at(lie, "wrong")) as url:
         with pytest.raises(ChainError) as error:
-            render_frames(SPIN, How(Nodes(url), tile=(64, 16)))
+            render_frames(SPIN, RenderOptions(Nodes(url), tile=(64, 16)))
         name = f"the node {url.removeprefix('http://')} "
         assert str(error.value).startswith(name)
         assert f"answers wrongly for {where}: its picture is not what the contracts draw" in str(error.value)
     notes = Notes()
     with proxy(node, at(lie // 2, "wrong")) as url:
-        job = render_frames(SPIN, How(Nodes(url, node), tile=(64, 16), listener=notes))
+        job = render_frames(SPIN, RenderOptions(Nodes(url, node), tile=(64, 16), listener=notes))
     assert [image.bmp for image in job] == [image.bmp for image in spun]
     for warning in notes.warnings:
         assert re.search("answers wrongly for the tile .*; it is left out, and 1 part is rendered again", warning)
@@ -132,7 +132,7 @@ def test_a_lie_in_any_tile_is_found(node: str, spun: list[Image], lie: int) -> N
 
 def test_what_is_not_compared_may_be_wrong(node: str, spun: list[Image]) -> None:
     with proxy(node, at(3, "wrong")) as url:
-        job = render_frames(SPIN, How(Nodes(url, verify="none"), tile=(64, 16)))
+        job = render_frames(SPIN, RenderOptions(Nodes(url, verify="none"), tile=(64, 16)))
     assert [job[n].bmp == spun[n].bmp for n in (0, 1)] == [False, True]
 
 
@@ -141,17 +141,17 @@ def test_a_large_picture_is_compared_in_samples(node: str, monkeypatch: pytest.M
     monkeypatch.setattr("shackled.parallel._job.COMPARED_GAS", 1)
     for verify, told in ((None, 1), ("some", 0), ("all", 0)):
         notes = Notes()
-        render_frames([SCENE], How(Nodes(node, verify=verify), tile=TILE, listener=notes))
+        render_frames([SCENE], RenderOptions(Nodes(node, verify=verify), tile=TILE, listener=notes))
         assert len(notes.warnings) == told
         assert all("`verify` all verifies every part" in warning for warning in notes.warnings)
 
 
 def test_a_node_that_does_not_answer_in_time(node: str, right: Image) -> None:
     with proxy(node, always("stuck")) as url:
-        (image,) = render_frames([SCENE], How(Nodes(url, node, timeout=1.0), tile=TILE, listener=Notes()))
+        (image,) = render_frames([SCENE], RenderOptions(Nodes(url, node, timeout=1.0), tile=TILE, listener=Notes()))
         assert image.bmp == right.bmp
     with proxy(node, always("stuck")) as url, pytest.raises(NodeError, match=r"did not answer within 0.2 seconds"):
-        render_frames([evolve(SCENE, width=12, height=10)], How(Nodes(url, timeout=0.2)))
+        render_frames([evolve(SCENE, width=12, height=10)], RenderOptions(Nodes(url, timeout=0.2)))
 
 
 def test_a_node_that_is_busy_at_first(node: str, right: Image) -> None:
@@ -162,7 +162,7 @@ def test_a_node_that_is_busy_at_first(node: str, right: Image) -> None:
         return Reply(status=429, headers={"Retry-After": "0"}) if len(asked) in (1, 2, 4) else forward(node, request)
 
     with serving(answer) as url:
-        (image,) = render_frames([SCENE], How(Nodes(url), tile=TILE))
+        (image,) = render_frames([SCENE], RenderOptions(Nodes(url), tile=TILE))
     assert image.bmp == right.bmp
 
 
@@ -173,7 +173,7 @@ def test_a_wrong_address_is_told_before_anything_is_rendered(node: str) -> None:
         (PROXY, "^the contract at .* is not the rend"),
     ):
         with pytest.raises(ChainError, match=message):
-            render_frames([SCENE], How(Nodes(node, address=f"0x{address.hex()}"), tile=TILE, listener=notes))
+            render_frames([SCENE], RenderOptions(Nodes(node, address=f"0x{address.hex()}"), tile=TILE, listener=notes))
     assert notes.outlines == 0
 
 
@@ -186,7 +186,7 @@ def test_answers_that_are_too_long(node: str, right: Image) -> None:
 
     with serving(answer) as url:
         # 64 x 60 in halves of 30, 15, and 8 and 7 rows
-        (image,) = render_frames([SCENE], How(Nodes(url), tile=(64, 60)))
+        (image,) = render_frames([SCENE], RenderOptions(Nodes(url), tile=(64, 60)))
     assert image.bmp == right.bmp
     assert image.calls == 4
 
@@ -194,14 +194,14 @@ def test_answers_that_are_too_long(node: str, right: Image) -> None:
 def test_a_node_that_caps_the_gas_of_a_call(node: str) -> None:
     scene = evolve(load("cube"), width=128, height=128)
     with geth(node, 1_500_000) as url:
-        (image,) = render_frames([scene], How(Nodes(url)))
+        (image,) = render_frames([scene], RenderOptions(Nodes(url)))
     assert image.calls > 1
     assert image.bmp == open_chain().draw(scene).bmp
 
 
 def test_a_node_with_little_gas(right: Image) -> None:
     with anvil("--gas-limit", "3000000") as little:
-        (image,) = render_frames([SCENE], How(Nodes(little.url)))
+        (image,) = render_frames([SCENE], RenderOptions(Nodes(little.url)))
     assert image.bmp == right.bmp
     assert image.gas is None or image.gas >= (right.gas or 0)
 
@@ -209,9 +209,9 @@ def test_a_node_with_little_gas(right: Image) -> None:
 def test_nodes_that_are_not_there(node: str, right: Image) -> None:
     gone = f"http://127.0.0.1:{free_port()}"
     notes = Notes()
-    (image,) = render_frames([SCENE], How(Nodes(gone, node), listener=notes))
+    (image,) = render_frames([SCENE], RenderOptions(Nodes(gone, node), listener=notes))
     assert image.bmp == right.bmp
     assert len(notes.warnings) == 1
     assert "cannot be reached" in notes.warnings[0]
     with pytest.raises(NodeError, match="cannot be reached"):
-        render_frames([SCENE], How(Nodes(gone)))
+        render_frames([SCENE], RenderOptions(Nodes(gone)))

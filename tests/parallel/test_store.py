@@ -16,7 +16,7 @@ from shackled.parallel._backends import Part, draw_part
 from shackled.parallel._job import render_frames
 from shackled.parallel._store import PartStore, folder_of, remove_parts
 from shackled.parallel._tiles import cut
-from shackled.parallel.places import How
+from shackled.parallel.places import RenderOptions
 from shackled.scene._codec import Rectangle
 from shackled.scene._turning import full_turn
 
@@ -86,7 +86,7 @@ def test_a_folder_that_cannot_be(tmp_path: Path) -> None:
 def test_a_job_goes_on_where_it_stopped(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, stop: BaseException) -> None:
     frames = full_turn(SCENE, 5)
     keep = tmp_path / "spin.gif.parts"
-    how = How(tile=(32, 7), keep=keep)
+    how = RenderOptions(tile=(32, 7), keep=keep)
     expected = render_frames(frames, evolve(how, keep=None))
     drawn: list[Rectangle] = []
 
@@ -124,8 +124,8 @@ def test_a_single_part_that_is_cut_later(tmp_path: Path, monkeypatch: pytest.Mon
     monkeypatch.setattr("shackled.parallel._backends.draw_part", narrow)
     monkeypatch.setattr(Listener, "warned", lambda self, text: None)
     with pytest.raises(KeyboardInterrupt):
-        render_frames([SCENE], How(gas_limit=10**9, keep=keep))
+        render_frames([SCENE], RenderOptions(gas_limit=10**9, keep=keep))
     resumed = True
-    (again,) = render_frames([SCENE], How(gas_limit=10**9, keep=keep))
+    (again,) = render_frames([SCENE], RenderOptions(gas_limit=10**9, keep=keep))
     assert again.calls == len(drawn) > 3
     assert again.bmp == open_chain().draw(SCENE).bmp

@@ -21,7 +21,7 @@ from shackled.parallel._backends import ChainBackend
 from shackled.parallel._estimate import estimate
 from shackled.parallel._job import plan
 from shackled.parallel._tiles import grid
-from shackled.parallel.places import How
+from shackled.parallel.places import RenderOptions
 from shackled.scene._codec import Rectangle
 
 FIGURES = json.loads((Path(__file__).parents[2] / "benchmarks" / "parallel.json").read_text("utf-8"))
@@ -74,9 +74,9 @@ def test_no_other_number_of_strips_is_much_cheaper(teapot: Scene, chain: Contrac
 
 def test_small_pictures_are_one_call(chain: ContractChain) -> None:
     small = load("cube", size=1000)
-    assert How().is_one_call(small)
+    assert RenderOptions().is_one_call(small)
     assert heights(small, chain) == [1000]
-    assert not How().is_one_call(evolve(small, width=1024, height=1024))
+    assert not RenderOptions().is_one_call(evolve(small, width=1024, height=1024))
 
 
 def test_the_number_of_strips() -> None:

@@ -15,9 +15,9 @@ from hypothesis import strategies as st
 from pictures import scene_types
 from shackled import Background, Camera, Fog, InputError, Light, Material, Mesh, Object, Scene
 from shackled.scene import encode
-from shackled.scene._camera import Projection
 from shackled.scene._codec import ONE, Rectangle, extensions
 from shackled.scene._constants import MAX_COORDINATE
+from shackled.scene._fields import Projection
 from shackled.scene._in_range import in_range
 from shackled.scene._mesh import vertex_normals
 from shackled.scene._packed import pack

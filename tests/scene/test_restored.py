@@ -32,12 +32,10 @@ from shackled import (
 )
 from shackled.errors import InputError
 from shackled.scene import Hemisphere, decode
-from shackled.scene._camera import Projection
 from shackled.scene._codec import render_call
 from shackled.scene._constants import MAX_COORDINATE
-from shackled.scene._fields import SHADINGS, Shading
+from shackled.scene._fields import FILTERS, SHADINGS, WRAPS, Projection, Shading
 from shackled.scene._in_range import _factor, _is_exact, _prepared
-from shackled.scene._texture import FILTERS, WRAPS
 
 Floats = NDArray[np.float64]
 Rng = np.random.Generator

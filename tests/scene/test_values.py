@@ -27,7 +27,7 @@ from shackled import (
     render,
     replace,
 )
-from shackled.parallel.places import How
+from shackled.parallel.places import RenderOptions
 from shackled.scene._arithmetic import rotate
 from shackled.scene._simplify import simplify
 
@@ -168,7 +168,7 @@ def test_integers_of_numpy_are_sizes() -> None:
     sides = scene(width=np.int16(9), height=np.uint8(7))
     assert (type(sides.width), sides.width, sides.height) == (int, 9, 7)
     assert simplify(MESH, np.int64(5)) is MESH  # type: ignore[arg-type]
-    bounds = How(tile=(np.int64(3), np.int64(4)))  # type: ignore[arg-type]
+    bounds = RenderOptions(tile=(np.int64(3), np.int64(4)))  # type: ignore[arg-type]
     jobs = Processes(np.int64(2)).jobs  # type: ignore[arg-type]
     assert (type(jobs), [type(side) for side in bounds.tile or ()]) == (int, [int, int])
     for wrong in (True, 16.0, "16", np.float64(16), np.bool_(True)):

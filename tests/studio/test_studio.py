@@ -21,7 +21,7 @@ from shackled.datasets import teapot
 from shackled.ethereum._encoding import word
 from shackled.image import decode_bmp
 from shackled.scene._arithmetic import from_euler
-from shackled.scene._object import Shading
+from shackled.scene._fields import Shading
 from stored_scenes import CHANGES, SCENE_STRUCT, changes, frames_of, kept, stored, struct_of, turned
 
 POT = Mesh(np.round(np.asarray(teapot(3).positions) * 100), teapot(3).faces)

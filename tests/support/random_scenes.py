@@ -23,11 +23,10 @@ from shackled.datasets.common import shapes
 from shackled.scene import Hemisphere
 from shackled.scene._arithmetic import rotate
 from shackled.scene._codec import Rectangle
+from shackled.scene._fields import FILTERS, WRAPS, Shading
 from shackled.scene._in_range import in_range
 from shackled.scene._mesh import vertex_normals
-from shackled.scene._object import Shading
 from shackled.scene._staging import signed_volume
-from shackled.scene._texture import FILTERS, WRAPS
 
 Array = NDArray[np.float64]
 Rng = np.random.Generator

@@ -7,11 +7,8 @@ Each shows a scene of SIDE x SIDE pixels by the definition, the same by the cont
 
 from __future__ import annotations
 
-import subprocess
-import sys
-import tempfile
+import runpy
 from collections.abc import Callable
-from pathlib import Path
 
 import numpy as np
 from attrs import evolve
@@ -19,9 +16,8 @@ from numpy.typing import NDArray
 from PIL import Image as PillowImage
 
 from shackled import Background, Camera, Light, Material, Mesh, Object, Scene, Texture, render
-from shackled.artifacts import artifact
 from shackled.datasets.common import shapes
-from shackled.scene import encode
+from shackled.gas import render_call
 from shackled.scene._in_range import in_range
 from tools.pages import IMAGES, ROOT
 
@@ -94,12 +90,7 @@ SCENES: dict[str, Callable[[], Scene]] = {each.__name__: each for each in (slive
 def draw(name: str) -> NDArray[np.uint8]:
     """Return the picture of a rule, (SIDE, 3 * SIDE + 2, 3): three parts with white lines between them."""
     scene = SCENES[name]()
-    with tempfile.TemporaryDirectory() as folder:
-        call, image = Path(folder, "call"), Path(folder, "picture.ppm")
-        call.write_bytes(encode(artifact("Renderer").selectors["render"], scene))
-        subprocess.run([sys.executable, ROOT / "contracts" / "picture.py", call, image], check=True)
-        with PillowImage.open(image) as opened:
-            defined = np.asarray(opened)
+    defined = runpy.run_path(str(ROOT / "contracts" / "picture.py"))["draw"](render_call(scene))
     drawn = render(scene).pixels
     line = np.full((SIDE, 1, 3), 255)
     parts = [defined, line, drawn, line, np.abs(drawn.astype(int) - defined)]

@@ -1,4 +1,4 @@
 """The experiments of the Shackled paper on the contracts of this package, and some that it could not make.
 
-`EXPERIMENTS` names them.
+`EXPERIMENTS` in `_runner.py` names them.
 """

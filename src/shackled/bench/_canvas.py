@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 from PIL import Image as PillowImage
 
-from ..scene._camera import Projection
+from ..scene._fields import Projection
 from ._measure import cost, picture
 from ._original import original_gas
 from ._report import ORIGINAL, OURS, ExperimentReport, millions, ratio, table

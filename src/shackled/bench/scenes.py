@@ -11,8 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from ..scene._arithmetic import from_euler, rotate
-from ..scene._camera import Camera, Projection
+from ..scene._camera import Camera
 from ..scene._effects import Background
+from ..scene._fields import Projection
 from ..scene._light import Light
 from ..scene._mesh import Mesh
 from ..scene._object import Material, Object

@@ -17,3 +17,6 @@ IS_SMOOTH = 16
 IS_QUADRATIC = 0x200
 IS_SPOT_LIT = 0x4000
 IS_BLENDED = 0x8000
+
+# of pipeline/Pipeline.sol
+BAND_PIXELS = 0x4000

@@ -20,6 +20,7 @@ from ..datasets._pieces import Piece
 from ..errors import ChainError, InputError, InputWarning, ShackledError
 from ..gas._limits import headline
 from ..scene._canvas import as_shown
+from ..scene._fields import Axis
 from ..scene._files.content import format_of
 from ..scene._files.gltf.animation import animations_of
 from ..scene._files.link import Link
@@ -28,7 +29,7 @@ from ..scene._mesh import Mesh, faces_of_all
 from ..scene._object import Material, Object
 from ..scene._scene import Scene
 from ..scene._staging import is_closed
-from ..scene._upright import Axis, axis_of_format, base_axis
+from ..scene._upright import axis_of_format, base_axis
 from .option import option, with_options
 from .output import print_json, print_line
 from .picture import Source, fits_of_made

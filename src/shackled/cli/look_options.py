@@ -13,7 +13,8 @@ import click
 from .._load import load, load_picture, locate
 from ..datasets._pieces import Piece
 from ..errors import InputError
-from ..scene._light import INNER_ANGLE, LIGHT_KINDS, WHITE, Light
+from ..scene._fields import LIGHT_KINDS
+from ..scene._light import INNER_ANGLE, WHITE, Light
 from ..scene._scene import Scene
 from ..scene._settings import ALL, SETTINGS, Kind, Setting, checked_look
 from ..scene._staging import MAX_SIDE

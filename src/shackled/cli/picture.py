@@ -27,7 +27,7 @@ from ..gas._search import suffices
 from ..image import MOST_COLORS, Image, colors, total
 from ..parallel._scheduler import Listener
 from ..parallel._store import folder_of, remove_parts
-from ..parallel.places import How
+from ..parallel.places import RenderOptions
 from ..scene._files.picture import PICTURE, scene_chunk, shows_scene
 from ..scene._scene import Scene
 from .look_options import load_with
@@ -101,7 +101,7 @@ class Task:
     fit: str | None
     film: FilmOptions
     scene: bool | None
-    how: How
+    how: RenderOptions
     #: Whether triangles and lit pixels are counted, by a second call.
     count: bool = True
     #: Whether a file that shows the same scene is left as it is.

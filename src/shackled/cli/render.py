@@ -18,7 +18,7 @@ from ..chain._connection import PATIENCE
 from ..chain._opening import CHAINS, open_chain
 from ..errors import InputError
 from ..image import FORMATS, check_alpha, one_of
-from ..parallel.places import VERIFY, Cluster, How, Nodes, On, Processes
+from ..parallel.places import VERIFY, Cluster, Nodes, On, Processes, RenderOptions
 from ..scene._files.picture import PICTURE
 from .look_options import FIT, INPUT, load_with, parse_sides
 from .option import exclude, is_from_environment, need, option
@@ -124,7 +124,7 @@ def render(
         if transparent:
             for extension in extensions:
                 check_alpha(extension, FILMS if film.is_film else FORMATS)
-        how = How(where.on(is_from_environment("rpc")), where.gas_limit, where.tile, transparent=transparent)
+        how = RenderOptions(where.on(is_from_environment("rpc")), where.gas_limit, where.tile, transparent=transparent)
         if where.evm is not None:
             open_chain(where.evm)
         parts = {"--tile": where.tile, "--gas-limit": where.gas_limit}

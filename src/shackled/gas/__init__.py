@@ -9,7 +9,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)
 
 
 class _Package(ModuleType):
-    """A package whose name is that of what it does: called as a function, it names its functions."""
+    """A package that is easily taken for a function: a call of it raises an error that names its functions."""
 
     def __call__(self, *_: object, **__: object) -> None:
         raise TypeError(f"{self.__name__} is a package: call one of its functions, {', '.join(self.__all__)}")

@@ -9,17 +9,17 @@ from contextlib import ExitStack
 import numpy as np
 
 from ..chain._chain import Drawing
+from ..chain._layout import BAND_PIXELS
 from ..errors import caller
 from ..image import Image, decode_bmp, total
 from ..scene._codec import Rectangle
 from ..scene._scene import Scene
 from ._backends import SAMPLE, Backend, Part, Verifier
-from ._bands import BAND_PIXELS
 from ._estimate import Estimate, estimate
 from ._scheduler import Listener, Outline, Scheduler
 from ._store import PartStore
 from ._tiles import area, cut, grid
-from .places import How, Nodes
+from .places import Nodes, RenderOptions
 
 #: Parts for each slot, so that all are busy until the end, and the extra gas that this may cost.
 PARTS_PER_SLOT = 4
@@ -30,10 +30,10 @@ LEAST_PIXELS = 1024
 MOST_PIXELS = 1 << 22
 #: Pictures that take less gas are compared whole, which takes a second or two.
 COMPARED_GAS = 500_000_000
-HERE = How()
+DEFAULTS = RenderOptions()
 
 
-def render_frames(frames: Sequence[Scene], how: How = HERE) -> list[Image]:
+def render_frames(frames: Sequence[Scene], how: RenderOptions = DEFAULTS) -> list[Image]:
     """Render frames of equal size. The folder `keep` of finished parts remains: the caller removes it."""
     listener, place = how.listener or Listener(), how.on
     listener.place = caller()

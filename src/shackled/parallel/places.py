@@ -1,4 +1,4 @@
-"""The values of the argument `on` of `render`: where calls run, and the backends that make them."""
+"""Where calls run: the values of the argument `on` of `render`, and the backends that make them."""
 
 from __future__ import annotations
 
@@ -228,8 +228,8 @@ def _transparent(value: bool) -> bool:
 
 
 @frozen
-class How:
-    """Where and how pictures are made: the arguments of `render` of these names."""
+class RenderOptions:
+    """The arguments of `render` of these names, checked: where and how pictures are made."""
 
     on: Place = field(default=None, converter=place_of)
     gas_limit: int | None = field(default=None, converter=_gas)

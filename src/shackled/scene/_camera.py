@@ -13,8 +13,7 @@ from ..base.synonyms import Given, with_synonyms
 from ..base.values import Value
 from ..errors import InputError
 from ._arithmetic import tangent
-from ._fields import FIELDS
-from ._fields import Projection as Projection
+from ._fields import FIELDS, Projection
 from ._table import USUAL, from_table
 
 #: Half the height of the picture at distance 1, by default: a field of view of about 50 degrees (the tangent of half).

@@ -12,8 +12,9 @@ from numpy.typing import NDArray
 
 from . import _constants as constant
 from ._arithmetic import cosine, dot, length, units
+from ._fields import Shading
 from ._mesh import Mesh, components, face_normals, weld
-from ._object import Object, Shading
+from ._object import Object
 from ._winding import against
 
 Floats = NDArray[np.float64]

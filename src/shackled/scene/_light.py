@@ -12,10 +12,8 @@ from ..base.checks import Color, Floats, choice, color, flag, instance, number, 
 from ..base.synonyms import Given, with_synonyms
 from ..base.values import Value, checked
 from ..errors import InputError
-from ._constants import MAX_LIGHTS as MAX_LIGHTS
-from ._fields import FIELDS
-from ._fields import LIGHT_KINDS as LIGHT_KINDS
-from ._fields import LightKind as LightKind
+from ._constants import MAX_LIGHTS
+from ._fields import FIELDS, LightKind
 from ._table import USUAL, from_table
 
 #: Degrees, of a spot light whose angles are not given; as in glTF.

@@ -13,9 +13,10 @@ from ..base.checks import Color, Floats
 from ..errors import InputError
 from . import _constants as constant
 from ._arithmetic import IDENTITY, dot, length, multiply, rotate
-from ._camera import DEFAULT_HALF_HEIGHT, Camera, Projection, half_height_in
+from ._camera import DEFAULT_HALF_HEIGHT, Camera, half_height_in
 from ._crease import is_flat, shaded, with_normals
 from ._effects import Fog, Tone
+from ._fields import Projection
 from ._mesh import Mesh
 from ._object import Material, Object
 from ._presets import preset_of
@@ -67,8 +68,8 @@ class _Staged:
     """A scene on its way through the steps of `look_at`.
 
     look: its settings. is_model: whether it is staged, and shaded as its normals say. view: from where a scene that is
-    staged is seen. is_framed: whether that view stays. has_strays: whether points are not to be seen. points: of the
-    shaded scene, (n, 3), that the camera shows.
+    staged is seen. is_framed: whether its camera stays. has_strays: whether some points are not to be seen. points: of
+    the shaded scene, (n, 3), that the camera shows.
     """
 
     scene: Scene
@@ -81,7 +82,29 @@ class _Staged:
 
     def camera(self) -> Camera:
         """Return the camera that the look asks for; it shows the shadows of the lights, too."""
-        return _camera(self.scene, self.points, self.look, self.view, self.is_framed)
+        scene, look, camera = self.scene, self.look, self.scene.camera
+        orthographic = look.get("orthographic", camera.projection == "orthographic")
+        projection: Projection = "orthographic" if orthographic else "perspective"
+        chosen = half_height_in(look, orthographic)
+        view = None if self.is_framed else self.view
+        if self.view is None and scene.objects and {"azimuth", "elevation", "margin"} & look.keys():
+            view = view_of(look, scene.width, scene.height, orthographic)
+            if not orthographic and chosen is None:
+                own = camera.half_height if camera.projection == projection else DEFAULT_HALF_HEIGHT
+                view = evolve(view, half_height=own)
+        if view is not None:
+            camera = frame(_to_be_seen(scene, self.points), view)
+        camera = evolve(camera, **{name: look[name] for name in ("eye", "target", "up") if name in look})
+        half_height, near = camera.half_height, camera.near
+        if projection != camera.projection:
+            # what the camera looks at keeps its size
+            near = None
+            forward = camera.target - camera.eye
+            distance = float(dot(middle(scene) - camera.eye, forward) / length(forward)) if forward.any() else 0.0
+            if distance > 0:
+                half_height *= distance if orthographic else 1 / distance
+        half_height = half_height if chosen is None else chosen
+        return evolve(camera, projection=projection, half_height=half_height, near=look.get("near", near))
 
 
 def look_at(
@@ -254,36 +277,6 @@ def _fog_between(camera: Camera, points: Floats, color: Color) -> Fog:
     near, far = max(float(depths.min()), 0.0), float(depths.max())
     # a scene without depth is clear
     return Fog(color, near, far if far > near else 2 * near + 1)
-
-
-def _camera(scene: Scene, points: Floats, look: Mapping[str, Any], view: Viewpoint | None, is_framed: bool) -> Camera:
-    """Return the camera that a look asks for.
-
-    points: of the scene, (n, 3), that it shows. view: that of a scene that is staged. is_framed: whether it stays.
-    """
-    camera = scene.camera
-    orthographic = look.get("orthographic", camera.projection == "orthographic")
-    projection: Projection = "orthographic" if orthographic else "perspective"
-    chosen = half_height_in(look, orthographic)
-    if view is not None:
-        camera = camera if is_framed else frame(_to_be_seen(scene, points), view)
-    elif scene.objects and {"azimuth", "elevation", "margin"} & look.keys():
-        view = view_of(look, scene.width, scene.height, orthographic)
-        if not orthographic and chosen is None:
-            own = camera.half_height if camera.projection == projection else DEFAULT_HALF_HEIGHT
-            view = evolve(view, half_height=own)
-        camera = frame(_to_be_seen(scene, points), view)
-    camera = evolve(camera, **{name: look[name] for name in ("eye", "target", "up") if name in look})
-    half_height, near = camera.half_height, camera.near
-    if projection != camera.projection:
-        # what the camera looks at keeps its size
-        near = None
-        forward = camera.target - camera.eye
-        distance = float(dot(middle(scene) - camera.eye, forward) / length(forward)) if forward.any() else 0.0
-        if distance > 0:
-            half_height *= distance if orthographic else 1 / distance
-    half_height = half_height if chosen is None else chosen
-    return evolve(camera, projection=projection, half_height=half_height, near=look.get("near", near))
 
 
 def _to_be_seen(scene: Scene, points: Floats) -> Floats:

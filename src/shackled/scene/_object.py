@@ -14,7 +14,7 @@ from ..base.synonyms import Given, with_synonyms
 from ..base.values import Value, checked
 from ..errors import InputError
 from ._arithmetic import ORTHOGONAL, matrix_of, quaternion_of, rotate, rotation_of
-from ._fields import Shading as Shading
+from ._fields import Shading
 from ._mesh import Mesh, is_trimesh
 from ._table import USUAL, from_table
 from ._texture import Texture

@@ -284,7 +284,7 @@ _GROUPS: dict[str, list[Setting]] = {
 
 
 def _limited(setting: Setting) -> Setting:
-    """Return the setting with the limits, or the words, of the field that it is; keys of objects are no fields."""
+    """Return the setting with the limits and choices of its field; those without a part may be keys of objects."""
     field = FIELDS.get((setting.part or "object").capitalize(), {}).get(setting.name)
     if field is None:
         return setting

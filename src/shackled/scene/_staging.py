@@ -15,10 +15,10 @@ from ..base.checks import Color, Floats, number
 from ..base.values import checked, with_names
 from ..errors import InputError
 from ._arithmetic import cosine, dot, length, sine
-from ._camera import DEFAULT_HALF_HEIGHT, Camera, Projection, half_height_of
+from ._camera import DEFAULT_HALF_HEIGHT, Camera, half_height_of
 from ._constants import LARGEST
 from ._effects import Background
-from ._fields import FIELDS
+from ._fields import FIELDS, Projection
 from ._light import WHITE, Light
 from ._mesh import Mesh, face_normals, faces_of_all
 from ._object import Material, Object

@@ -18,11 +18,7 @@ from PIL import Image
 from ..base.checks import choice, fixed, whole
 from ..base.values import Value
 from ..errors import InputError
-from ._fields import FIELDS
-from ._fields import FILTERS as FILTERS
-from ._fields import WRAPS as WRAPS
-from ._fields import Filter as Filter
-from ._fields import Wrap as Wrap
+from ._fields import FIELDS, Filter, Wrap
 from ._files.signatures import HEAD, signature_of
 from ._table import USUAL, from_table
 

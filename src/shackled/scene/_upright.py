@@ -11,8 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 from ..base.checks import Floats, vector
 from ..errors import InputError, warn
 from ._arithmetic import from_euler, unit
-from ._fields import AXES
-from ._fields import Axis as Axis
+from ._fields import AXES, Axis
 from ._files.content import format_of
 from ._files.model import MeshPart
 from ._mesh import face_normals, faces_of_all

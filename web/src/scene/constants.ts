@@ -2,7 +2,7 @@
 
 /** The most lights of a scene. */
 export const MAX_LIGHTS = 4;
-/** Coordinates of objects at most, so that a float holds those of a camera that sees them all. */
+/** The largest coordinate of an object: the coordinates of a camera that sees all objects are then finite, too. */
 export const LARGEST = 1e305;
 /** Limits of the contracts (contracts/src/scene/Checks.sol), in world units. */
 export const MAX_COORDINATE = 2 ** 26;

@@ -168,7 +168,7 @@ export interface Hemisphere {
 export interface Rim {
     /** The colour of the light. */
     color: Color;
-    /** From a wide rim to a narrow one, 1..16; 3 by default. */
+    /** How narrow the rim is, 1..16; 3 by default. */
     power?: number | undefined;
 }
 
@@ -178,7 +178,7 @@ export interface Fog {
     color: Color;
     /** The distance at which it begins, at least 0. */
     near: number;
-    /** That at which it hides everything, at least 0. */
+    /** The distance at which it hides everything, at least 0. */
     far: number;
 }
 
@@ -198,11 +198,11 @@ export interface Ground {
     color: Color;
     /** Its y in the world; just below the lowest vertex by default. */
     height?: number | undefined;
-    /** Where nothing is left of it, above 0; 2.25 times half the diagonal of the objects by default. */
+    /** The radius at which it has faded away, above 0; 2.25 times half the diagonal of the objects by default. */
     radius?: number | undefined;
     /** Its x and z in the world; the middle of the objects by default. */
     center?: readonly [number, number] | undefined;
-    /** Where it begins to fade, below the radius; 0.4 of the radius by default. */
+    /** The radius at which it begins to fade, below the radius; 0.4 of the radius by default. */
     inner?: number | undefined;
 }
 

@@ -14,8 +14,9 @@ from PIL import Image
 from ...base.checks import Color
 from ...errors import warn
 from .._crease import filled
+from .._fields import Filter, Wrap
 from .._mesh import DEFAULT_COLOR, Mesh, faces_of_all, weld
-from .._texture import MAX_TEXTURE_SIDE, Filter, Texture, Wrap, reduced, sample
+from .._texture import MAX_TEXTURE_SIDE, Texture, reduced, sample
 from .images import FileImage, Images, is_plain
 
 #: The warning for a mesh whose textures have more than one colour, if only the mesh is read.

@@ -13,8 +13,9 @@ from PIL import Image
 
 from ....base.checks import Color
 from ....errors import InputError, warn
+from ..._fields import Filter
 from ..._mesh import DEFAULT_COLOR
-from ..._texture import Filter, as_rgb, cutoff_of, open_image, to_srgb, with_alpha
+from ..._texture import as_rgb, cutoff_of, open_image, to_srgb, with_alpha
 from ..model import FileWrap, Picture, finite_uvs
 from ..table import Table
 from .document import Document, Vertices

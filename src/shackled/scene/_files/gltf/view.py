@@ -15,7 +15,9 @@ from ....base.values import plural
 from ....errors import InputError, warn
 from ..._arithmetic import units
 from ..._camera import Camera
-from ..._light import LIGHT_KINDS, MAX_LIGHTS, Light
+from ..._constants import MAX_LIGHTS
+from ..._fields import LIGHT_KINDS
+from ..._light import Light
 from ..._texture import to_srgb
 from ..table import about
 from .document import Document
