@@ -221,7 +221,10 @@ def fields(table: Table) -> str:
     for name, words in table["choices"].items():
         lines.append(f"export const {plural(name)} = {literal(words, '[]')} as const;")
     lights = ", ".join(f'{kind}: "{kind.capitalize()}Light"' for kind in table["Light"]["kinds"])
-    lines += ["/** The classes of the kinds of lights. */", f"export const LIGHTS = {{ {lights} }} as const;", ""]
+    lines += ["/** The classes of the kinds of lights. */", f"export const LIGHTS = {{ {lights} }} as const;"]
+    most = rows_of(table)["Scene"]["width"]["range"][1]
+    # apart from FIELDS, which scripts leave out that need no more
+    lines += ["/** The most pixels a side of a picture. */", f"export const MAX_SIDE = {most};", ""]
     lines += block("export interface Plain {", "Of each class, the fields with a kind, checked.", table, plain)
     lines += block("export interface InFile {", "Of each class, the keys of files that are no fields.", table, in_file)
     lines += block("export const FIELDS = {", "All fields, and keys of scene files.", table, as_object)

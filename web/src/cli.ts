@@ -19,6 +19,7 @@ import { checkedScene, worldPositions } from "./scene/checked.js";
 import * as check from "./scene/checks.js";
 import { withCall } from "./scene/call_file.js";
 import { encode } from "./scene/encode.js";
+import { FIELDS } from "./scene/fields.js";
 
 const PRESETS = LOOKS.map(({ name }) => name);
 const HELP = `Draw posters of models and scenes, every pixel by the contracts of Shackled.
@@ -107,7 +108,7 @@ function open(input: string, values: Values): Promise<Opened> {
     const folder = dirname(resolve(input));
     const read = new Map<string, Given>();
     return readFiles([{ name: basename(input), bytes: bytesOf(input) }], {
-        size: numberOf(values, "size", 1, 2048) ?? 256,
+        size: numberOf(values, "size", ...FIELDS.Scene.width.limits) ?? 256,
         maxTriangles: values["max-triangles"] === "all" ? "all" : numberOf(values, "max-triangles", 1),
         draco: () => Promise.resolve(bytesOf(new URL("./draco.wasm", import.meta.url))),
         beside: (name) => {
@@ -175,7 +176,7 @@ async function draw({ document, meshes }: Opened, values: Values, path: string |
 
 /** Return the document with what the options change. */
 function changed(given: Document, meshes: Meshes, values: Values): Document {
-    const size = numberOf(values, "size", 1, 2048);
+    const size = numberOf(values, "size", ...FIELDS.Scene.width.limits);
     let doc = size ? { ...given, width: size, height: size } : given;
     if (values["no-antialias"]) doc = { ...doc, antialias: false };
     if (values.preset !== undefined) doc = applyLook(doc, check.choice(values.preset, "--preset", PRESETS));
@@ -186,7 +187,10 @@ function changed(given: Document, meshes: Meshes, values: Values): Document {
         const [top, bottom = top] = colors.map((color) => toHex(color, "#"));
         doc = { ...doc, background: { top, bottom } };
     }
-    const [azimuth, elevation] = [numberOf(values, "azimuth"), numberOf(values, "elevation", -90, 90)];
+    const [azimuth, elevation] = [
+        numberOf(values, "azimuth"),
+        numberOf(values, "elevation", ...FIELDS.Camera.elevation.limits),
+    ];
     if (azimuth === undefined && elevation === undefined) return doc;
     const angles = { ...(azimuth !== undefined && { azimuth }), ...(elevation !== undefined && { elevation }) };
     return fitted(withCamera(doc, angles), meshes);

@@ -4,6 +4,7 @@ import { InputError } from "./errors.js";
 import { bytesAt, toHex, wordAt } from "./bytes.js";
 import type { ContractEvm } from "./evm/contracts.js";
 import { FUNCTIONS, type FunctionName } from "./scene/encode.js";
+import { MAX_SIDE } from "./scene/fields.js";
 
 /** A picture as a contract made it. */
 export interface Picture {
@@ -23,7 +24,6 @@ export interface Picture {
 
 /** The head of a Windows bitmap. */
 const HEADER = 54;
-const MAX_SIDE = 2048;
 
 /** The functions that return a bitmap. */
 const BITMAPS: readonly FunctionName[] = ["render", "renderTile", "renderCounted", "renderTileCounted"];

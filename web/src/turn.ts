@@ -3,10 +3,10 @@
 import { readCall, type Call } from "./call.js";
 import { InputError, show } from "./errors.js";
 import { add, cross, fromAxisAngle, multiply, rotation, subtract, unit, type Vector } from "./scene/arithmetic.js";
-import { MAX_SIDE } from "./scene/checked.js";
 import { number, whole } from "./scene/checks.js";
 import { WORD, isTiled, q32, setWord } from "./scene/encode.js";
 import { MAX_COORDINATE } from "./scene/constants.js";
+import { MAX_SIDE } from "./scene/fields.js";
 import { direction } from "./scene/fit.js";
 import type { Field } from "./scene/reader.js";
 

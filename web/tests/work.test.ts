@@ -6,7 +6,7 @@ import type { Document, MeshRef, StoredMesh } from "../src/document/document.js"
 import { compressZeros } from "../src/creator/work/compact.js";
 import { fitted } from "../src/creator/work/fit.js";
 import { Host } from "../src/creator/work/host.js";
-import { handlersOf } from "../src/creator/work/machine.js";
+import { handlersOf } from "../src/creator/work/handlers.js";
 import { idAt } from "../src/creator/work/pick.js";
 import { Cancelled, Work } from "../src/creator/work/work.js";
 import { CallError, InputError } from "../src/index.js";
@@ -62,7 +62,8 @@ const DOC: Document = {
     ...{ width: 64, height: 32 },
 };
 
-function answeringAt(host: Host): ReturnType<typeof answering> {
+function hostAnswers(): ReturnType<typeof answering> {
+    const host = new Host();
     return answering(handlersOf(host), host.keep);
 }
 
@@ -73,7 +74,7 @@ class Workers {
     ended = 0;
     #answers = 0;
 
-    constructor(answers = () => answeringAt(new Host())) {
+    constructor(answers = hostAnswers) {
         this.#answering = answers;
     }
 
@@ -267,7 +268,7 @@ function asking(): { pool: Pool<Questions, "one">; workers: Workers; asked: stri
         sleep: () => new Promise(() => undefined),
     };
     const workers = new Workers(() => answering(handlers, () => undefined));
-    const supplies = async (_: unknown, __: unknown, lacks: readonly string[]): Promise<Map<string, unknown>> => {
+    const supplies = async (lacks: readonly string[]): Promise<Map<string, unknown>> => {
         asked.push(...lacks);
         if (lacks.includes("x")) throw new InputError("there is no x");
         return new Map(lacks.map((key) => [key, Number(key)]));

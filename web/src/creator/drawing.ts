@@ -1,7 +1,7 @@
 // The document on the canvas.
 
 import { computed, effect, signal, type Signal } from "@preact/signals";
-import type { Document } from "../document/document.js";
+import { keyOf, type Document } from "../document/document.js";
 import { Scheduler, type Job, type Plan } from "../draw/scheduler.js";
 import type { MeshStore } from "./mesh_store.js";
 import { doing, note } from "./state.js";
@@ -54,15 +54,15 @@ export class Drawing {
             value: () => page.doc.peek(),
             plan: (doc) => this.#plan(doc),
             draw: (doc, job, signal) => this.#draw(doc, job, signal),
-            show: (doc, { stage }, drawn) => {
-                this.seen.value = { drawn, doc, draft: stage === "draft" };
-                if (stage !== "draft") page.shown.value = this.seen.value;
+            show: (doc, { quality }, drawn) => {
+                this.seen.value = { drawn, doc, draft: quality === "draft" };
+                if (quality !== "draft") page.shown.value = this.seen.value;
             },
             fail: (doc, error) => (this.#failed.value = { doc, words: page.sentence(error) }),
         });
         let meshes = "";
         effect(() => {
-            const now = page.doc.value.objects.map(({ mesh }) => JSON.stringify(mesh)).join();
+            const now = page.doc.value.objects.map(({ mesh }) => keyOf(mesh)).join();
             if (now !== meshes) this.#scheduler.forget();
             meshes = now;
             this.#scheduler.wake();
@@ -89,19 +89,19 @@ export class Drawing {
         return { exact, finer: null, share: isLarge ? SHARE : 1, isPlain: !antialias };
     }
 
-    async #draw(doc: Document, { stage, size, share }: Job, signal: AbortSignal): Promise<Drawn> {
+    async #draw(doc: Document, { quality, size, share }: Job, signal: AbortSignal): Promise<Drawn> {
         const { meshes, work } = this.page;
         const cancel = (): void => {
             this.#scheduler.giveUp();
             this.page.tell("Stopped. The next change draws the picture again.");
         };
         const timer = setTimeout(() => {
-            if (stage === "exact" && !doing.peek().busy) note({ busy: { what: "Drawing", cancel } });
+            if (quality === "exact" && !doing.peek().busy) note({ busy: { what: "Drawing", cancel } });
         }, BUSY);
         try {
             const [width, height] = size;
             const options = { width, height, lane: "picture" as const, signal };
-            if (stage === "exact") return await work.draw(doc, options);
+            if (quality === "exact") return await work.draw(doc, options);
             return await work.draw(withShare(doc, meshes, share, FEWEST), { ...options, antialias: false });
         } finally {
             clearTimeout(timer);

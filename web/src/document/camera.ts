@@ -3,6 +3,7 @@
 // Distances on the picture are parts of its height, x to the right and y down.
 
 import { add, cross, dot, length, subtract, times, unit, type Vector } from "../scene/arithmetic.js";
+import { FIELDS } from "../scene/fields.js";
 import { halfHeightOf } from "../scene/staging.js";
 import type { Light } from "../scene/types.js";
 import type { Document, Frame, Meshes, View } from "./document.js";
@@ -47,10 +48,10 @@ const MARGIN = 0.06;
 /** How deep, in radii from the middle, the target of a camera may lie. */
 const NEAR = 1.5;
 const RANGES = {
-    elevation: [-90, 90],
+    elevation: FIELDS.Camera.elevation.limits,
     distance: [0.01, 1000],
     target: [-1000, 1000],
-    fov: [0.2, 179.8],
+    fov: FIELDS.Camera.fov.limits,
 } as const;
 
 /** Return unit vectors of a viewer at some angles. */

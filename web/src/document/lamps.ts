@@ -2,7 +2,7 @@
 
 import { add, dot, length, subtract, times, unit, type Vector } from "../scene/arithmetic.js";
 import { MAX_LIGHTS } from "../scene/constants.js";
-import { LIGHT_KINDS } from "../scene/fields.js";
+import { FIELDS, LIGHT_KINDS } from "../scene/fields.js";
 import type { DirectionalLight, Light, PointLight, SpotLight } from "../scene/types.js";
 import { aimed, anglesOf, axesAt, axesOf, inside, orbitOf, outside } from "./camera.js";
 import type { Document, Frame } from "./document.js";
@@ -31,8 +31,8 @@ export const LAMP: Lamp = {
     distance: 3,
     color: "#ffffff",
     target: [0, 0, 0],
-    innerAngle: 0,
-    outerAngle: 45,
+    innerAngle: FIELDS.SpotLight.innerAngle.default,
+    outerAngle: FIELDS.SpotLight.outerAngle.default,
     shadow: false,
 };
 /** The most radii of a distance. */

@@ -12,6 +12,7 @@ import {
 } from "../scene/checked.js";
 import * as check from "../scene/checks.js";
 import type { Rgb } from "../scene/checks.js";
+import { FIELDS } from "../scene/fields.js";
 import { parseJson, parseScene } from "../scene/file.js";
 import { groundUnder } from "../scene/ground.js";
 import { vertexNormals } from "../scene/mesh.js";
@@ -268,7 +269,7 @@ export async function openSceneFile(json: string | object, library: Library, abo
     const extras = objects.map((each, index): Extra => ({
         ...(refs[index] && { mesh: refs[index] }),
         color: each.read("color", (color, where) => hex(check.color(color, where))) ?? null,
-        crease: each.number("crease", 0, 180) ?? null,
+        crease: each.number("crease", ...FIELDS.SceneObject.crease.limits) ?? null,
         maxTriangles: notes[index]?.number("max_triangles", 1) ?? null,
         ...text(notes[index], "name"),
     }));

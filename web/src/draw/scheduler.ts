@@ -1,5 +1,5 @@
-// When what is drawn: drafts while something moves, then the exact picture, and a finer one. Drafts have fewer pixels, and fewer
-// triangles where that is not enough.
+// Decides which picture is drawn next: drafts while something moves, then the exact picture, and a finer one. Drafts have fewer
+// pixels, and fewer triangles where that is not enough.
 
 import { SLOW_FRAME, Speed, areaOf, scaled, type Size } from "./speed.js";
 
@@ -16,7 +16,7 @@ const FIRST = 96;
 
 /** A picture to draw. share: of the triangles; 1 but in drafts. */
 export interface Job {
-    stage: "draft" | "exact" | "finer";
+    quality: "draft" | "exact" | "finer";
     size: Size;
     share: number;
 }
@@ -32,8 +32,8 @@ export interface Plan {
     isPlain: boolean;
 }
 
-/** What draws and shows. A value is another one where it is another object. */
-export interface Easel<V, D extends { milliseconds: number }> {
+/** What the scheduler asks to draw and to show. Values are compared by identity. */
+export interface Delegate<V, D extends { milliseconds: number }> {
     /** Return what is to be seen; null for nothing. */
     value(): V | null;
     plan(value: V): Plan;
@@ -71,15 +71,14 @@ export class Scheduler<V, D extends { milliseconds: number }> {
     #speed = new Speed();
     /** Of drafts with fewer triangles. */
     #fewer = new Speed();
-    #seen: { value: V; stage: Job["stage"] } | null = null;
+    #seen: { value: V; quality: Job["quality"] } | null = null;
     /** What cannot be drawn, or was given up. */
-    #given: V | null = null;
+    #givenUp: V | null = null;
     #flight: Flight<V> | null = null;
     #held = false;
     #movedAt = -Infinity;
-    /** What all frames of a movement have, and the size of the exact picture then; null at rest. */
-    #draft: (Job & { of: Size }) | null = null;
-    #frames = 0;
+    /** What all frames of a movement have, the size of the exact picture then, and the number of the last frame; null at rest. */
+    #draft: (Job & { of: Size; frame: number }) | null = null;
     /** Whether what is drawn can have fewer triangles. */
     #isReducible = true;
     /** Whether the speed was measured again: the first picture is slow. */
@@ -87,7 +86,7 @@ export class Scheduler<V, D extends { milliseconds: number }> {
     #cancel = (): void => undefined;
 
     constructor(
-        private readonly easel: Easel<V, D>,
+        private readonly delegate: Delegate<V, D>,
         private readonly clock = CLOCK,
     ) {}
 
@@ -120,7 +119,7 @@ export class Scheduler<V, D extends { milliseconds: number }> {
 
     /** Draw the exact picture again, such as in another place. */
     again(): void {
-        if (this.#seen) this.#seen.stage = "draft";
+        if (this.#seen) this.#seen.quality = "draft";
         this.wake();
     }
 
@@ -132,7 +131,7 @@ export class Scheduler<V, D extends { milliseconds: number }> {
 
     /** End what is being drawn; it is not drawn again until another value was. */
     giveUp(): void {
-        this.#given = this.#flight?.value ?? this.#given;
+        this.#givenUp = this.#flight?.value ?? this.#givenUp;
         this.stop();
     }
 
@@ -144,26 +143,28 @@ export class Scheduler<V, D extends { milliseconds: number }> {
 
     /** Draw what is next, unless something is being drawn. To be called after each change. */
     wake(): void {
-        const value = this.easel.value();
+        const value = this.delegate.value();
         if (this.#flight) {
             const { job, time, abort, value: before } = this.#flight;
-            if (job.stage !== "draft" && before !== value && time > INTERRUPT) abort.abort();
+            if (job.quality !== "draft" && before !== value && time > INTERRUPT) abort.abort();
             return;
         }
-        if (value === null || value === this.#given) return;
-        const plan = this.easel.plan(value);
+        if (value === null || value === this.#givenUp) return;
+        const plan = this.delegate.plan(value);
         const { exact, finer } = plan;
-        const stage = this.#seen?.value === value ? this.#seen.stage : null;
-        if (stage === (finer ? "finer" : "exact")) {
-            this.#given = null;
-            if (!this.#isMeasured && !this.easel.beginsSmall) this.#measure(value, exact.size);
+        const quality = this.#seen?.value === value ? this.#seen.quality : null;
+        if (quality === (finer ? "finer" : "exact")) {
+            this.#givenUp = null;
+            if (this.#isMeasured || this.delegate.beginsSmall) return;
+            this.#isMeasured = true;
+            void this.#draw(value, "draft", exact.size, 1);
             return;
         }
         const isMoving = this.isMoving;
         if (!isMoving) this.#draft = null;
         const time = this.predict(areaOf(exact.size) * exact.samples);
-        if (!stage && (isMoving || time > LONG || (!time && this.easel.beginsSmall))) this.#drawDraft(value, plan);
-        else if (!isMoving && stage === "exact" && finer) void this.#draw(value, "finer", finer.size, finer.samples);
+        if (!quality && (isMoving || time > LONG || (!time && this.delegate.beginsSmall))) this.#drawDraft(value, plan);
+        else if (!isMoving && quality === "exact" && finer) void this.#draw(value, "finer", finer.size, finer.samples);
         else if (!isMoving) void this.#draw(value, "exact", exact.size, exact.samples);
         else if (!this.#held) {
             this.#cancel();
@@ -171,50 +172,46 @@ export class Scheduler<V, D extends { milliseconds: number }> {
         }
     }
 
-    #measure(value: V, size: Size): void {
-        this.#isMeasured = true;
-        void this.#draw(value, "draft", size, 1, 1, false);
-    }
-
     #drawDraft(value: V, plan: Plan): void {
         const { size: of } = plan.exact;
         const before = String(this.#draft?.of) === String(of) ? this.#draft : null;
-        if (!before) this.#frames = 0;
-        let draft = before ?? this.#draftOf(plan);
-        if (before && ++this.#frames % LEARN === 0) {
+        const frame = before ? before.frame + 1 : 0;
+        let draft: Job = before ?? this.#draftOf(plan);
+        if (before && frame % LEARN === 0) {
             // what is compiled meanwhile draws larger pictures in the same time
             const next = this.#draftOf(plan);
             if (areaOf(next.size) > areaOf(draft.size)) draft = next;
         }
-        const { size, share } = (this.#draft = { ...draft, of });
+        const { size, share } = (this.#draft = { ...draft, of, frame });
         const isExact = plan.isPlain && share === 1 && String(size) === String(of);
         void this.#draw(value, isExact ? "exact" : "draft", size, 1, share);
     }
 
     /** Return the best draft that is fast enough. */
     #draftOf({ exact, finer, share }: Plan): Job {
-        const stage = "draft";
-        if (!this.predict(1) && this.easel.beginsSmall)
-            return { stage, size: scaled(exact.size, FIRST / Math.max(...exact.size)), share: 1 };
+        const quality = "draft";
+        if (!this.predict(1) && this.delegate.beginsSmall)
+            return { quality, size: scaled(exact.size, FIRST / Math.max(...exact.size)), share: 1 };
         const size = this.#speed.movingSize(exact.size, finer?.size ?? exact.size);
         if (share === 1 || !this.#isReducible || this.predict(areaOf(size)) <= SLOW_FRAME)
-            return { stage, size, share: 1 };
+            return { quality, size, share: 1 };
         const isKnown = this.#fewer.predict(1) > 0;
-        return { stage, size: isKnown ? this.#fewer.movingSize(exact.size, exact.size) : size, share };
+        return { quality, size: isKnown ? this.#fewer.movingSize(exact.size, exact.size) : size, share };
     }
 
-    async #draw(value: V, stage: Job["stage"], size: Size, samples: number, share = 1, isShown = true): Promise<void> {
-        const [abort, pixels, job] = [new AbortController(), areaOf(size) * samples, { stage, size, share }];
+    async #draw(value: V, quality: Job["quality"], size: Size, samples: number, share = 1): Promise<void> {
+        const [abort, pixels, job] = [new AbortController(), areaOf(size) * samples, { quality, size, share }];
         this.#flight = { value, job, time: this.predict(pixels), abort };
         try {
-            const drawn = await this.easel.draw(value, job, abort.signal);
+            const drawn = await this.delegate.draw(value, job, abort.signal);
             if (abort.signal.aborted) return;
             const { milliseconds } = drawn;
             (share < 1 ? this.#fewer : this.#speed).add(pixels, milliseconds);
-            if (stage === "draft" && milliseconds > TOO_SLOW * SLOW_FRAME) this.#draft = null;
-            if (!isShown) return;
-            this.#seen = { value, stage };
-            this.easel.show(value, job, drawn);
+            if (quality === "draft" && milliseconds > TOO_SLOW * SLOW_FRAME) this.#draft = null;
+            // a draft of what is seen already was drawn to measure the speed
+            if (quality === "draft" && this.#seen?.value === value) return;
+            this.#seen = { value, quality };
+            this.delegate.show(value, job, drawn);
         } catch (error) {
             if (abort.signal.aborted) return;
             if (share < 1) {
@@ -222,8 +219,8 @@ export class Scheduler<V, D extends { milliseconds: number }> {
                 this.#draft = null;
                 return;
             }
-            this.#given = value;
-            this.easel.fail(value, error);
+            this.#givenUp = value;
+            this.delegate.fail(value, error);
         } finally {
             this.#flight = null;
             this.wake();

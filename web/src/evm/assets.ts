@@ -3,7 +3,7 @@
 import { InputError } from "../errors.js";
 import { inflate, isGzip, readStream, unpack } from "../bytes.js";
 import { checkedContracts, type Contracts } from "./contracts.js";
-import { compile } from "./evm.js";
+import { moduleOf } from "./evm.js";
 import { checkedStages, type Stages } from "./stages.js";
 
 /** The most bytes of each. */
@@ -34,7 +34,7 @@ export async function loadAssets(sources: AssetSources = {}): Promise<Assets> {
     const [module, found] = await Promise.all([
         evm instanceof WebAssembly.Module
             ? evm
-            : bytesOf(evm ?? new URL("./evm.wasm", import.meta.url), "the EVM").then(compile),
+            : bytesOf(evm ?? new URL("./evm.wasm", import.meta.url), "the EVM").then(moduleOf),
         isPlain(contracts)
             ? contracts
             : bytesOf(contracts ?? new URL("./contracts.json", import.meta.url), "the contracts").then((bytes) =>

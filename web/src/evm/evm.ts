@@ -71,7 +71,7 @@ export class Evm {
 
     /** Return an EVM from the bytes of evm.wasm, a response with them, or the compiled module. */
     static async load(source: BufferSource | Response | WebAssembly.Module): Promise<Evm> {
-        return new Evm(await compile(source));
+        return new Evm(await moduleOf(source));
     }
 
     /** Set the code of a contract. */
@@ -202,7 +202,7 @@ export class Evm {
 }
 
 /** Return the compiled module of evm.wasm. */
-export async function compile(source: BufferSource | Response | WebAssembly.Module): Promise<WebAssembly.Module> {
+export async function moduleOf(source: BufferSource | Response | WebAssembly.Module): Promise<WebAssembly.Module> {
     if (source instanceof WebAssembly.Module) return source;
     // servers that do not know the type of .wasm files are no obstacle
     return WebAssembly.compile(source instanceof Response ? await source.arrayBuffer() : source);

@@ -17,7 +17,7 @@ export async function readFiles(files: readonly Given[], options: Options): Prom
         if (!draco) throw new InputError("the decoder of Draco is not here");
         return [key, await draco()];
     };
-    const supplies = async (_: unknown, __: unknown, lacks: readonly string[]): Promise<Map<string, unknown>> => {
+    const supplies = async (lacks: readonly string[]): Promise<Map<string, unknown>> => {
         const refs = lacks.filter((key) => key !== DRACO).map(refOf);
         if (refs.length && !library) throw new InputError("pieces of datasets are not here");
         await library?.load(refs);

@@ -1,7 +1,7 @@
 // Scene files with the mesh files and images that they name.
 
 import { parse } from "smol-toml";
-import type { MeshRef, StoredMesh } from "../document/document.js";
+import { keyOf, type StoredMesh } from "../document/document.js";
 import { digestOf, openSceneFile, storedMesh, textureTable, type Library, type Made } from "../document/save.js";
 import { InputError, show } from "../errors.js";
 import { checkedMesh, type Mesh, type Texture } from "../scene/checked.js";
@@ -57,7 +57,6 @@ export async function readScene(
             objects.push({ opacity, two_sided, ...rest, mesh: { file: key }, material: surface });
         }
     }
-    const keyOf = (ref: MeshRef): string => ("file" in ref ? ref.file : "");
     const all: Library = {
         load: async (refs) => {
             const others = refs.filter((ref) => !own.has(keyOf(ref)));

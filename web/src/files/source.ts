@@ -10,9 +10,9 @@ export interface Given {
 }
 
 /**
- * An image: rows from the top; red, green, blue and alpha of each pixel. given: the size in the file, where it was reduced. The rest is
- * kept for all surfaces that show it: what `hides` returned, whether it has one colour, how many pixels `isPlain` has looked
- * at, and smaller images of it.
+ * An image: rows from the top; red, green, blue and alpha of each pixel. given: the size in the file, where it was reduced.
+ * The rest is kept for all surfaces that show it: what `hides` returned, whether it has one colour, how many pixels
+ * `isPlain` has looked at, and smaller images of it.
  */
 export interface Image {
     width: number;

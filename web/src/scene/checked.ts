@@ -11,8 +11,6 @@ import { namesOf, plain } from "./plain.js";
 import { VIEW, frame, keyLight } from "./staging.js";
 import type * as given from "./types.js";
 
-export const MAX_SIDE = FIELDS.Scene.width.limits[1];
-
 export const STAGED_BACKGROUND = { top: [46, 54, 72], bottom: [136, 146, 162] } as const;
 const DEFAULT_COLOR: Rgb = [200, 200, 200];
 
@@ -57,19 +55,19 @@ export interface Light {
     shadow: boolean;
 }
 
-export type Camera = Plain["Camera"];
-export type Fog = Plain["Fog"];
-export type Ground = Plain["Ground"];
+export type Camera = Own<"Camera">;
+export type Fog = Own<"Fog">;
+export type Ground = Own<"Ground">;
 
 export interface Scene extends Own<"Scene"> {
     objects: SceneObject[];
     camera: Camera;
     lights: Light[];
     background: { top: Rgb; bottom: Rgb };
-    hemisphere: Plain["Hemisphere"] | undefined;
-    rim: Plain["Rim"] | undefined;
+    hemisphere: Own<"Hemisphere"> | undefined;
+    rim: Own<"Rim"> | undefined;
     fog: Fog | undefined;
-    tone: Plain["Tone"] | undefined;
+    tone: Own<"Tone"> | undefined;
     ground: Ground | undefined;
 }
 

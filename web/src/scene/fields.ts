@@ -12,6 +12,8 @@ export const WRAPS = ["repeat", "clamp"] as const;
 export const AXES = ["x", "y", "z"] as const;
 /** The classes of the kinds of lights. */
 export const LIGHTS = { directional: "DirectionalLight", point: "PointLight", spot: "SpotLight" } as const;
+/** The most pixels a side of a picture. */
+export const MAX_SIDE = 2048;
 
 // prettier-ignore
 /** Of each class, the fields with a kind, checked. */

@@ -2,7 +2,7 @@
 
 import { InputError } from "../errors.js";
 import { dot, largest, rint, type Vector } from "./arithmetic.js";
-import { MAX_SIDE } from "./checked.js";
+import { MAX_SIDE } from "./fields.js";
 import * as check from "./checks.js";
 import { Table } from "./table.js";
 import type * as given from "./types.js";

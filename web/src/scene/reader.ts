@@ -2,9 +2,9 @@
 
 import { InputError } from "../errors.js";
 import type { Vector } from "./arithmetic.js";
-import { MAX_SIDE } from "./checked.js";
 import { MAX_COORDINATE, MAX_LIGHTS, MIN_HALF_HEIGHT } from "./constants.js";
 import { FUNCTIONS, WORD, type FunctionName } from "./encode.js";
+import { MAX_SIDE } from "./fields.js";
 import { LONG_KINDS, RECORD_HEADER } from "./records.js";
 
 const SELECTOR = 4;

@@ -4,7 +4,7 @@ import { InputError } from "../errors.js";
 import { Scheduler, type Job, type Plan } from "../draw/scheduler.js";
 import type { Size } from "../draw/speed.js";
 import { fetchBytes, loadAssets, type Assets, type AssetSources } from "../evm/assets.js";
-import { MAX_SIDE } from "../scene/checked.js";
+import { MAX_SIDE } from "../scene/fields.js";
 import type { CallFacts } from "../turn.js";
 import script from "worker:view/worker.ts";
 import { Pool, started } from "../workers/pool.js";
@@ -69,7 +69,7 @@ export class ShackledView extends HTMLElement {
     readonly #workers = new Pool<Requests, "draw" | "check">(
         {
             start: () => started(script),
-            supplies: async (_, __, [lacks]) =>
+            supplies: async ([lacks]) =>
                 new Map<string, unknown>([lacks ? ["call", this.#call] : ["evm", await this.#assets()]]),
         },
         { draw: 1, check: 1 },
@@ -428,21 +428,21 @@ export class ShackledView extends HTMLElement {
         return { exact, finer: isExact ? null : { size: shown, samples: 4 }, share: 1, isPlain: false };
     }
 
-    async #draw(turn: TurnDetail, { stage, size: [width, height] }: Job, signal: AbortSignal): Promise<Drawn> {
-        if (stage !== "draft") delete this.#parts.stage.dataset["moving"];
-        if (stage === "exact") this.#busy(true);
-        const wish: Wish = { turn, width, height, samples: stage === "finer" ? 2 : 1, hashed: stage === "exact" };
+    async #draw(turn: TurnDetail, { quality, size: [width, height] }: Job, signal: AbortSignal): Promise<Drawn> {
+        if (quality !== "draft") delete this.#parts.stage.dataset["moving"];
+        if (quality === "exact") this.#busy(true);
+        const wish: Wish = { turn, width, height, samples: quality === "finer" ? 2 : 1, hashed: quality === "exact" };
         return this.#workers.ask("draw", wish, "draw", { signal, limit: this.#timeout });
     }
 
-    #show({ stage, size: [width, height] }: Job, drawn: Drawn): void {
+    #show({ quality, size: [width, height] }: Job, drawn: Drawn): void {
         const { gas, milliseconds, sha256, pixels } = drawn;
         const isExact = this.hasAttribute("exact");
         const { finer } = this.#plan();
-        if (stage === "draft") {
+        if (quality === "draft") {
             this.#paint(drawn, isExact);
             this.dispatchEvent(new CustomEvent("frame", { detail: { width, height, milliseconds } }));
-        } else if (stage === "exact") {
+        } else if (quality === "exact") {
             // the finer picture may take seconds: until then, what is finer than the last frame of the movement is shown
             const isFiner = !this.#picture || !finer || this.#parts.canvas.width < width;
             this.#picture = { gas, width, height, milliseconds, sha256, pixels };
@@ -450,7 +450,7 @@ export class ShackledView extends HTMLElement {
             this.#say("");
             this.#report(this.#picture, finer?.size ?? null);
         } else this.#paint(drawn, false);
-        if (stage === (finer ? "finer" : "exact")) this.#busy(false);
+        if (quality === (finer ? "finer" : "exact")) this.#busy(false);
     }
 
     #paint({ pixels, width, height }: Drawn, exact: boolean): void {

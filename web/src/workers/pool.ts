@@ -15,12 +15,8 @@ export interface WorkerLike {
 /** Where workers and what they keep come from. */
 export interface Source<R> {
     start(): WorkerLike | Promise<WorkerLike>;
-    /** Return what a request needs, by keys. A worker is given each once, and what it says that it lacks. */
-    supplies<K extends keyof R>(
-        kind: K,
-        value: unknown,
-        lacks: readonly string[],
-    ): Promise<ReadonlyMap<string, unknown>>;
+    /** Return what a request needs, by keys, of which a worker is given each once; or only what the worker says that it lacks. */
+    supplies(lacks: readonly string[], kind: keyof R, value: object): Promise<ReadonlyMap<string, unknown>>;
 }
 
 /** limit: milliseconds that the answer may take. onProgress: is told what the worker does. */
@@ -152,7 +148,7 @@ export class Pool<R extends Table<R>, L extends string> {
 
     async #run(hand: Hand<R>, job: Job<R>, lane: L): Promise<void> {
         const { id, kind, value, limit } = job;
-        const supplies = await this.#source.supplies(kind, value, []);
+        const supplies = await this.#source.supplies([], kind, value);
         // it may have been cancelled meanwhile
         if (hand.job !== job) return;
         // a worker that would keep too much is replaced
@@ -193,7 +189,7 @@ export class Pool<R extends Table<R>, L extends string> {
 
     async #supply(worker: WorkerLike, { kind, value }: Job<R>, keys: readonly string[]): Promise<void> {
         try {
-            worker.postMessage({ give: [...(await this.#source.supplies(kind, value, keys))] });
+            worker.postMessage({ give: [...(await this.#source.supplies(keys, kind, value))] });
         } catch (error) {
             worker.postMessage({ keys, error: toldOf(error) });
         }

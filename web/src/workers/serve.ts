@@ -13,29 +13,34 @@ export type Handlers<R extends Table<R>> = {
     [K in keyof R]: (value: R[K][0], page: Asking) => R[K][1] | Promise<R[K][1]>;
 };
 
+/** Who waits for something that the page has. */
+interface Waiting {
+    resolve(value: unknown): void;
+    reject(error: Error): void;
+}
+
 /** Return what does as messages say, and tells what comes of it. keep: takes what is given. */
 export function answering<R extends Table<R>>(
     handlers: Handlers<R>,
     keep: (key: string, value: unknown) => void,
 ): (message: Message, tell: (reply: Reply) => void) => Promise<void> {
-    const lacking = new Map<string, { found: Promise<unknown>; end(of: { value: unknown } | Error): void }>();
-    const ask = (key: string): void => {
-        let end = (_: { value: unknown } | Error): void => undefined;
-        const found = new Promise((resolve, reject) => {
-            end = (of) => (of instanceof Error ? reject(of) : resolve(of.value), void lacking.delete(key));
-        });
-        lacking.set(key, { found, end });
+    const lacking = new Map<string, Waiting[]>();
+    const wait = (key: string): Promise<unknown> =>
+        new Promise((resolve, reject) => lacking.set(key, [...(lacking.get(key) ?? []), { resolve, reject }]));
+    const end = (key: string, act: (one: Waiting) => void): void => {
+        lacking.get(key)?.forEach(act);
+        lacking.delete(key);
     };
     return async (message, tell) => {
         if ("give" in message) {
             for (const [key, value] of message.give) {
                 keep(key, value);
-                lacking.get(key)?.end({ value });
+                end(key, ({ resolve }) => resolve(value));
             }
             return;
         }
         if ("keys" in message) {
-            for (const key of message.keys) lacking.get(key)?.end(errorOf(message.error));
+            for (const key of message.keys) end(key, ({ reject }) => reject(errorOf(message.error)));
             return;
         }
         const { id, kind, value } = message;
@@ -43,9 +48,8 @@ export function answering<R extends Table<R>>(
             onProgress: (progress) => tell({ id, progress }),
             need: (keys) => {
                 const lacks = keys.filter((key) => !lacking.has(key));
-                lacks.forEach(ask);
                 if (lacks.length) tell({ id, lacks });
-                return Promise.all(keys.map((key) => lacking.get(key)?.found));
+                return Promise.all(keys.map(wait));
             },
         };
         try {

@@ -3,6 +3,7 @@
 import { fromHex } from "../../bytes.js";
 import {
     keyOf,
+    prepare,
     sceneOf,
     type Document,
     type MeshRef,
@@ -73,13 +74,14 @@ export class Host {
         return fromHex(this.given.more?.contracts[name]?.code ?? "0x");
     }
 
-    sceneOf(doc: Document, options?: SceneOptions): Scene {
+    async sceneOf(doc: Document, options?: SceneOptions): Promise<Scene> {
+        await prepare(doc, this);
         return sceneOf(doc, this, options);
     }
 
     /** Return the call of `render` that draws a document. */
-    callOf(doc: Document, options?: SceneOptions): Uint8Array {
-        return encode(this.sceneOf(doc, options));
+    async callOf(doc: Document): Promise<Uint8Array> {
+        return encode(await this.sceneOf(doc));
     }
 
     /** Return the picture of a scene. */

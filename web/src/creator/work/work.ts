@@ -1,7 +1,7 @@
 // The page's side of the workers: pictures, files and figures, all computed by the contracts.
 
 import script from "worker:creator/work/worker.ts";
-import { compile } from "../../evm/evm.js";
+import { moduleOf } from "../../evm/evm.js";
 import { checkedContracts } from "../../evm/contracts.js";
 import { checkedStages, type StageGas } from "../../evm/stages.js";
 import { hashPixels } from "../../picture.js";
@@ -79,19 +79,14 @@ export class Work {
     ) {
         this.#assets = assets;
         this.#meshes = meshes;
-        const supplies = async (kind: Kind, value: object): Promise<Map<string, unknown>> => {
+        const supplies = async (_: unknown, kind: Kind, { doc }: { doc?: Document }): Promise<Map<string, unknown>> => {
             const names = ["evm" as const, NEEDS[kind] ?? []].flat();
             const kept = await Promise.all(names.map(async (name) => [name, await this.#supply(name)] as const));
-            const { doc } = value as { doc?: Document };
             if (doc) await meshes.need?.(doc);
             const own = doc?.objects.map(({ mesh }) => [keyOf(mesh), meshes.get(mesh)] as const) ?? [];
             return new Map<string, unknown>([...kept, ...own]);
         };
-        const lanes = { picture: 2, background: Math.max(1, size - 1) };
-        this.#pool = new Pool<Requests, Lane>(
-            { start, supplies: (kind, value) => supplies(kind, value as object) },
-            lanes,
-        );
+        this.#pool = new Pool<Requests, Lane>({ start, supplies }, { picture: 2, background: Math.max(1, size - 1) });
     }
 
     async draw(
@@ -257,7 +252,7 @@ export class Work {
         if (name === "more") return this.#assets.json<More>("more.json");
         if (name === "stages") return checkedStages(await this.#assets.json("stages.json"));
         const [module, contracts] = await Promise.all([
-            this.#assets.bytes("evm.wasm").then(compile),
+            this.#assets.bytes("evm.wasm").then(moduleOf),
             this.#assets.json("contracts.json").then(checkedContracts),
         ]);
         return { module, contracts };

@@ -2,7 +2,7 @@
 
 import { serve } from "../../workers/serve.js";
 import { Host } from "./host.js";
-import { handlersOf } from "./machine.js";
+import { handlersOf } from "./handlers.js";
 
 const host = new Host();
 serve(handlersOf(host), host.keep, () => host.compile());
