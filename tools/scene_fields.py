@@ -222,7 +222,7 @@ def fields(table: Table) -> str:
         lines.append(f"export const {plural(name)} = {literal(words, '[]')} as const;")
     lights = ", ".join(f'{kind}: "{kind.capitalize()}Light"' for kind in table["Light"]["kinds"])
     lines += ["/** The classes of the kinds of lights. */", f"export const LIGHTS = {{ {lights} }} as const;"]
-    most = rows_of(table)["Scene"]["width"]["range"][1]
+    most = rows_of(table)["Scene"]["width"]["limits"][1]
     # apart from FIELDS, which scripts leave out that need no more
     lines += ["/** The most pixels a side of a picture. */", f"export const MAX_SIDE = {most};", ""]
     lines += block("export interface Plain {", "Of each class, the fields with a kind, checked.", table, plain)
