@@ -1,93 +1,106 @@
-"""Measure what each effect costs for each pixel.
+"""Measure what effects cost on models.
 
     python -m benchmarks.effects
 
-draws a square with one effect at a time, prints the gas for each pixel, and writes it into benchmarks/effects.json, of
-which `python -m tools.generated` makes the table of docs/light.md.
+draws models with one effect at a time, prints the gas, and writes it into benchmarks/effects.json, of which
+`python -m tools.generated` makes the table of docs/light.md. Figures of models that are not there are kept: spot is of
+the cost table, the bonsai of a contract beside it.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import Any
+from pathlib import Path
+from statistics import fmean
 
-from attrs import evolve
+from tools.build_contracts import compile_once, follow_imports, request, settings
+from tools.ledger import World, call_data
 from tools.readme import EFFECTS
 
-from shackled import Camera, Fog, Light, Material, Mesh, Object, Rim, Scene, Tone, render
-from shackled.scene import Hemisphere
+from shackled import Scene, load
+from shackled.bench._measure import gas
+from shackled.datasets import pieces
+from shackled.scene._settings import LookOptions
 
-from . import run_main, write_figures
+from . import read_figures, run_main, shared, write_figures
 
-CORNERS = [[-1, -1, 0], [1, -1, 0], [1, 1, 0], [-1, 1, 0]]
-#: Normals that differ, so that every fragment has its own.
-NORMALS = [[-1, -1, 3], [1, -1, 3], [1, 1, 3], [-1, 1, 3]]
-COLORS = ["white", "tan", "silver", "gold"]
-SQUARE = Mesh(CORNERS, [[0, 1, 2], [0, 2, 3]], COLORS, normals=NORMALS)
-
-Change = Callable[[Scene], Scene]
-
-
-def square(shading: str, quick: bool = False) -> Scene:
-    """Return a square that fills most of the picture, with highlights; quick: of one colour, and without."""
-    mesh = evolve(SQUARE, colors="tan") if quick else SQUARE
-    thing = Object(mesh, material=Material(shading, specular=0.0 if quick else 0.4), cull=False)
-    return Scene([thing], Camera((0, 0, 2.6)), [Light("directional", (1, 2, 3))], width=128, height=128, antialias=True)
-
-
-def scene_with(**fields: Any) -> Change:
-    """Return the change of these fields of a scene."""
-    return lambda scene: evolve(scene, **fields)
-
-
-def object_with(**fields: Any) -> Change:
-    """Return the change of these fields of all objects."""
-    return lambda scene: evolve(scene, tone=Tone(), objects=[evolve(each, **fields) for each in scene.objects])
-
-
-def ground(scene: Scene) -> Scene:
-    """Make the square a ground that fades."""
-    return object_with(fade=(0.1, 2.0))(scene)
-
-
-def emission(scene: Scene) -> Scene:
-    """Let the square emit light."""
-    objects = [evolve(each, material=evolve(each.material, emission="tan")) for each in scene.objects]
-    return evolve(scene, objects=objects)
-
-
-ROWS: dict[str, Change] = {
-    "antialiased, without effects": lambda scene: scene,
-    "the EffectsEngine, with no effect": scene_with(tone=Tone()),
-    "hemisphere light": scene_with(hemisphere=Hemisphere("skyblue", "tan")),
-    "rim, exponent 3": scene_with(rim=Rim("white", 3)),
-    "emission": emission,
-    "fog": scene_with(fog=Fog("white", 1.0, 4.0)),
-    "exposure": scene_with(tone=Tone(1.5)),
-    "filmic": scene_with(tone=Tone(1.5, filmic=True)),
-    "gamma": scene_with(tone=Tone(gamma=True)),
-    "gamma, filmic": scene_with(tone=Tone(1.5, filmic=True, gamma=True)),
-    "opacity of the object": object_with(opacity=0.5),
-    "opacities of vertices": object_with(mesh=evolve(SQUARE, opacities=[0.2, 0.4, 0.6, 0.8])),
-    "a ground, where it fades": ground,
+SKY: LookOptions = {"hemisphere": ("skyblue", "tan")}
+ALL: LookOptions = {"rim": ("white", 4), "fog": "white", "filmic": True, "gamma": True, "exposure": 1.4}
+EFFECTS_OF_LOOKS: dict[str, LookOptions] = {
+    "without effects": {},
+    "hemisphere light": SKY,
+    "rim, exponent 4": {"rim": ("white", 4)},
+    "emission": {"emission": "#202020"},
+    "fog": {"fog": "white"},
+    "exposure": {"exposure": 1.4},
+    "filmic": {"filmic": True},
+    "gamma": {"gamma": True},
+    "hemisphere light, rim, fog, filmic, gamma, exposure": {**SKY, **ALL},
 }
 
+#: The gas that a call may take on any node: that of one transaction (EIP-7825).
+LIMIT = 1 << 24
+#: Variants of the tokens of a contract that draws trees: shiny faces of several colours.
+BONSAI = shared.SHARED / "review" / "author" / "Effects.sol"
+VARIANTS = {"without effects": 0, "hemisphere light": 2, "rim, exponent 3": 3, "fog": 6, "filmic": 7, "gamma": 5}
+TREES = 3
 
-def gas_of_a_pixel(scene: Scene) -> int:
-    """Return the gas of a picture for each of its covered pixels."""
-    picture = render(scene)
-    assert picture.gas is not None
-    assert picture.covered_pixels is not None
-    return picture.gas // picture.covered_pixels
+#: By model, the gas of each effect; and by effects, the number of icons that LIMIT suffices for.
+Figures = dict[str, dict[str, int]]
+
+
+def scene_of(model: str, look: LookOptions) -> Scene:
+    """Return a model with a look: an icon, antialiased at 128 px, or a mesh in the default look at 256 px."""
+    if model.startswith("icons/"):
+        name, _, kind = model.partition(", ")
+        chosen: LookOptions = {"antialias": True, **look}
+        if kind:
+            chosen |= {"shading": "flat", "specular": 0.0}
+        return load(name, 128, **chosen)
+    paths: dict[str, str | Path] = {path.stem: path for path in shared.meshes()}
+    return load(paths.get(model, model), 256, **look)
+
+
+def trees() -> dict[str, int]:
+    """Return the mean gas of tokens that are trees, by effect."""
+    sources = follow_imports([BONSAI.name], BONSAI.parent)
+    wanted = {BONSAI.name: {"Effects": ["evm.bytecode.object"]}}
+    output = compile_once(request(sources, settings(200, True), wanted))[BONSAI.name]["Effects"]
+    world = World()
+    token = world.deploy(bytes.fromhex(output["evm"]["bytecode"]["object"]), world.address("Studio").rjust(32, b"\0"))
+    found = {}
+    for name, variant in VARIANTS.items():
+        costs = []
+        for number in range(TREES):
+            world.run(token, call_data("render(uint256)", 100 * variant + number))
+            costs.append(world.gas)
+        found[name] = round(fmean(costs))
+    return found
+
+
+def icons_that_fit() -> dict[str, int]:
+    """Return the number of icons whose `render`, antialiased at 128 px, takes at most LIMIT, by effects."""
+    looks: dict[str, LookOptions] = {"without effects": {}, "hemisphere light, gamma": {**SKY, "gamma": True}}
+    names = [piece.name for piece in pieces("icons")]
+    return {name: sum(gas(scene_of(icon, look)) <= LIMIT for icon in names) for name, look in looks.items()}
 
 
 def main() -> int:
     """Measure, print and write the figures."""
-    squares = (square("flat"), square("smooth"), square("flat", quick=True))
-    found = {name: [gas_of_a_pixel(change(each)) for each in squares] for name, change in ROWS.items()}
-    for name, gas in found.items():
-        print(f"{name:36}" + "".join(f"{each:>8,}" for each in gas))
-    write_figures(EFFECTS, found)
+    models = ["teapot", "icons/crystals", "icons/crown", "icons/rocket, quick path"]
+    if any(path.stem == "spot" for path in shared.meshes()):
+        models.insert(0, "spot")
+    figures: Figures = read_figures(EFFECTS)
+    for model in models:
+        figures[model] = {name: gas(scene_of(model, look)) for name, look in EFFECTS_OF_LOOKS.items()}
+    if BONSAI.is_file():
+        figures["bonsai"] = trees()
+    for model, found in figures.items():
+        print(model)
+        for name, cost in found.items():
+            print(f"    {name:54}{cost:>14,}{cost / found['without effects']:8.2f}")
+    figures["icons that fit"] = icons_that_fit()
+    print("icons that fit", figures["icons that fit"])
+    write_figures(EFFECTS, figures)
     return 0
 
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from math import isnan, nan
 from pathlib import Path
 from statistics import fmean
 
@@ -23,7 +24,7 @@ from shackled.gas._profile import KINDS
 from shackled.scene._fields import Shading
 
 from . import antialiasing, cost, read_figures, run_main, shared, write_figures
-from .scenes import SECOND_LIGHT, staged_teapot
+from .scenes import MORE_LIGHTS, staged_teapot
 
 FILE = Path(__file__).with_name("looks.json")
 PAGES = (ROOT / "docs" / "gas.md", ROOT / "docs" / "parallel.md")
@@ -56,7 +57,10 @@ Figures = dict[str, float]
 
 @dataclass(frozen=True)
 class Row:
-    """A row of the table. names: its figures. before: they at commit d8a84c1, in millions of gas, or ratios."""
+    """A row of the table.
+
+    names: its figures. before: they at commit d8a84c1, in millions of gas, or ratios; nan for what was not measured.
+    """
 
     title: str
     names: tuple[str, ...]
@@ -77,7 +81,11 @@ ROWS = (
         (2.07, 2.31, 2.15),
     ),
     Row("teapot as a wireframe, antialiased, 128 px", ("wires",), (90.1,)),
-    Row("spot with a second directional light, 256 px, times one", ("lights, x",), (2.57,)),
+    Row(
+        "spot with two, three and four directional lights, 256 px, times one",
+        ("2 lights, x", "3 lights, x", "4 lights, x"),
+        (2.57, nan, nan),
+    ),
     Row("plain: 15 objects smooth, lit", ("smooth objects", "lit objects"), (7.31, 4.15)),
     Row(
         "cube, cube 512, most expensive transaction, most expensive Genesis `render`",
@@ -105,7 +113,9 @@ def mesh_figures(paths: dict[str, Path]) -> Figures:
     figures: Figures = {f"{name}, {side}": gas(load(path, size=side)) for side in SIDES for name, path in paths.items()}
     if "spot" in paths:
         one = load(paths["spot"])
-        figures["lights, x"] = gas(evolve(one, lights=[*one.lights, SECOND_LIGHT])) / gas(one)
+        for count in range(1, len(MORE_LIGHTS) + 1):
+            lights = [*one.lights, *MORE_LIGHTS[:count]]
+            figures[f"{len(lights)} lights, x"] = gas(evolve(one, lights=lights)) / gas(one)
         for side in LARGE_SIDES:
             large = load(paths["spot"], size=side, shading="flat", antialias=False)
             image = render(large)
@@ -164,6 +174,9 @@ def table(figures: Figures) -> str:
 def _cell(names: Iterable[str], values: Iterable[float]) -> str:
     texts = []
     for name, value in zip(names, values, strict=True):
+        if isnan(value):
+            texts.append("-")
+            continue
         places = 2 if value < 10 else 1 if value < 1000 else 0
         texts.append(f"{value:,.{places}f}{' x' if name.endswith(RATIO) else 'M'}")
     return ", ".join(texts)

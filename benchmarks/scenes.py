@@ -18,6 +18,7 @@ TEAPOT = teapot(4)
 LAMP = Light("point", (500, 800, 0))
 #: Beside the light of a scene.
 SECOND_LIGHT = Light("directional", (1, 0, 0))
+MORE_LIGHTS = (SECOND_LIGHT, Light("directional", (-1, 1, 0)), Light("directional", (0, 1, -1)))
 
 
 def cubes(size: int) -> Scene:

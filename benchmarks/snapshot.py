@@ -12,7 +12,7 @@ from pathlib import Path
 from attrs import evolve
 
 from shackled import Camera, Light
-from shackled.artifacts import artifact
+from shackled.artifacts import RENDERER, artifact
 from shackled.bench import scenes as paper
 from shackled.bench._deploy import deployment_gas
 from shackled.bench._measure import call, gas
@@ -109,7 +109,7 @@ def shared_figures() -> Figures:
 
 def contract_figures() -> Figures:
     """Measure each contract that `shackled deploy` puts on a chain: bytes of its code, gas of its deployment."""
-    figures = {}
+    figures = {"all that draws, code size": sum(len(artifact(name).runtime) for name in RENDERER)}
     for name in sorted(STANDARD):
         figures[f"{name} code size"] = len(artifact(name).runtime)
         figures[f"{name} deployment"] = deployment_gas(name)

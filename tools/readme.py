@@ -72,11 +72,17 @@ def effects() -> str:
     return "\n".join(lines)
 
 
-def pixels() -> str:
-    """Return the table of what each effect costs for each pixel."""
-    data: dict[str, list[int]] = json.loads(EFFECTS.read_text("utf-8"))
-    lines = ["| gas for each pixel | flat | smooth | quick path |", "|---|---:|---:|---:|"]
-    lines += [f"| {name} | {' | '.join(f'{gas:,}' for gas in each)} |" for name, each in data.items()]
+def models() -> str:
+    """Return the table of what effects cost on models: gas without them, and by what each multiplies it."""
+    data: dict[str, dict[str, int]] = json.loads(EFFECTS.read_text("utf-8"))
+    columns = {"teapot": "`teapot`, 256 x 256", "icons/crystals": "`icons/crystals`, 128 x 128"}
+    columns["icons/rocket, quick path"] = "`icons/rocket`, 128 x 128, quick path"
+    (first, *names), plain = data["teapot"], [next(iter(data[model].values())) for model in columns]
+    lines = [f"| | {' | '.join(columns.values())} |", "|---|---:|---:|---:|"]
+    lines.append(f"| {first} | {' | '.join(millions(gas) for gas in plain)} |")
+    for name in names:
+        ratios = (f"x {data[model][name] / gas:.2f}" for model, gas in zip(columns, plain, strict=True))
+        lines.append(f"| {name} | {' | '.join(ratios)} |")
     return "\n".join(lines)
 
 
@@ -96,5 +102,5 @@ def millions(gas: float) -> str:
 
 def files() -> dict[Path, str]:
     """Return the texts of the pages, by their paths."""
-    found = {each.__name__: each() for each in (costs, effects, pixels, scene, settings, tokens)}
+    found = {each.__name__: each() for each in (costs, effects, models, scene, settings, tokens)}
     return {page: filled(page, found.get) for page in PAGES}

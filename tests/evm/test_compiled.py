@@ -27,6 +27,8 @@ from shackled.evm._instance import Answer, Instance, Status
 from shackled.scene import encode
 
 IS_LONG = os.environ.get("HYPOTHESIS_PROFILE") == "new"
+#: The long profile takes an hour.
+pytestmark = [pytest.mark.timeout(4 * 3600)] if IS_LONG else []
 REGIONS = (1, _compiled.REGION)
 GAS = 10_000_000
 OTHER = bytes(18) + b"\xbe\xef"
