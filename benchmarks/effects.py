@@ -6,8 +6,6 @@ draws a square with one effect at a time, prints the gas for each pixel, and wri
 which `python -m tools.generated` makes the table of docs/light.md.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any
 

@@ -6,8 +6,6 @@ measures everything, rewrites icons.json, the table of docs/datasets.md, and the
 antialiased: src/shackled/tokens/antialiased.json.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from attrs import evolve

@@ -5,8 +5,6 @@
 measures everything, rewrites motion.json and the table of docs/motion.md, and prints it.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from tools.pages import ROOT, update

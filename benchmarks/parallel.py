@@ -4,8 +4,6 @@ Written to parallel.md and parallel.json beside this file. Gas is exact; times a
 only their ratios are meaningful.
 """
 
-from __future__ import annotations
-
 import json
 import os
 import sys

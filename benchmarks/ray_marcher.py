@@ -7,8 +7,6 @@ which draws meshes of them, and rewrites ray_marcher.json and its table in bench
 contracts/.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any

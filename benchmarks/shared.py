@@ -6,8 +6,6 @@ cubes and a square, as JSON files in the format of the original. SHACKLED_SHARED
 missing.
 """
 
-from __future__ import annotations
-
 import os
 from functools import cache
 from pathlib import Path

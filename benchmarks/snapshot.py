@@ -5,8 +5,6 @@
 measures everything and rewrites gas.json; what changed is printed. The figures of scenes that are not there are kept.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from attrs import evolve

@@ -5,8 +5,6 @@
 measures everything, rewrites studio.json and the tables of docs/studio.md, and prints what changed.
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np

@@ -5,8 +5,6 @@
 measures everything, rewrites tokens.json and the table of docs/tokens.md, and prints it.
 """
 
-from __future__ import annotations
-
 import statistics
 from pathlib import Path
 

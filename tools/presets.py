@@ -1,7 +1,5 @@
 """Make contracts/src/building/Presets.sol: the table of src/shackled/scene/presets.toml, for contracts."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from shackled.base.checks import Color

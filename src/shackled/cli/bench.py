@@ -1,7 +1,5 @@
 """shackled bench"""
 
-from __future__ import annotations
-
 import sys
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """shackled genesis"""
 
-from __future__ import annotations
-
 import json
 
 from ..errors import InputError

@@ -1,7 +1,5 @@
 """Hexadecimal text, ABI words, hashes, addresses, the intrinsic gas of data, and the RLP of block headers."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping
 from typing import Any

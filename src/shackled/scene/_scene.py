@@ -1,7 +1,5 @@
 """Scenes: objects, camera, lights, background and size."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Iterable
 from pathlib import Path

@@ -1,7 +1,5 @@
 """Rotation of scenes about their centre."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np

@@ -1,7 +1,5 @@
 """Materials and textures of a glTF document, as far as they are drawn."""
 
-from __future__ import annotations
-
 import io
 import math
 from dataclasses import dataclass, replace

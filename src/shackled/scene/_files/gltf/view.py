@@ -1,7 +1,5 @@
 """The cameras and lights of a glTF document."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from pathlib import Path
