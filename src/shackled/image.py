@@ -16,7 +16,7 @@ from numpy.typing import ArrayLike, DTypeLike, NDArray
 from PIL import Image as PillowImage
 from PIL.PngImagePlugin import PngInfo
 
-from .base.checks import fixed
+from .base.checks import Ints, fixed
 from .base.values import Value, array_key
 from .base.whole_file import check_output_file, write_output
 from .chain._chain import Drawing
@@ -426,11 +426,11 @@ def indexed(frames: Sequence[Pixels]) -> list[PillowImage.Image]:
     return [PillowImage.fromarray(f).quantize(palette=palette, dither=PillowImage.Dither.NONE) for f in frames]
 
 
-def _distinct(frames: Sequence[Pixels]) -> NDArray[np.int64]:
+def _distinct(frames: Sequence[Pixels]) -> Ints:
     """Return the colours 0xRRGGBB of all frames, in order."""
     return np.unique(np.concatenate([np.unique(_packed(frame)) for frame in frames]))
 
 
-def _packed(frame: Pixels) -> NDArray[np.int64]:
+def _packed(frame: Pixels) -> Ints:
     """Return the colours as numbers 0xRRGGBB, (H, W)."""
     return np.asarray(frame.astype(np.int64) @ [1 << 16, 1 << 8, 1])

@@ -112,7 +112,7 @@ MESH_STAGING = Staging(
 )
 
 
-def staged(points: NDArray[np.float64], width: int, height: int) -> tuple[Camera, tuple[Light], Background]:
+def staged(points: Floats, width: int, height: int) -> tuple[Camera, tuple[Light], Background]:
     """Return the camera, light and background with which points of the world, (n, 3), fill a picture. InputError
     where a float does not hold them, or the camera.
     """
@@ -136,7 +136,7 @@ def painted_object(o: Object, color: ArrayLike | str) -> Object:
     return evolve(o, mesh=painted(o.mesh, color), material=evolve(o.material, texture=None))
 
 
-def frame(points: NDArray[np.float64], view: Viewpoint) -> Camera:
+def frame(points: Floats, view: Viewpoint) -> Camera:
     """Return the camera of a view, as near as all points, (n, 3), fit the picture."""
     right, up, back = view_axes(view.azimuth, view.elevation)
     x, y, z = dot(points, right), dot(points, up), dot(points, back)
@@ -183,7 +183,7 @@ def toward_viewer(view: Viewpoint, direction: tuple[float, float, float] = KEY_L
     return Light("directional", dot(np.array(direction), axes), color)
 
 
-def view_axes(azimuth: float, elevation: float) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+def view_axes(azimuth: float, elevation: float) -> tuple[Floats, Floats, Floats]:
     """Return unit vectors to the right, upward, and toward a viewer, of angles in degrees."""
     right = np.array([cosine(azimuth), 0, -sine(azimuth)])
     level = cosine(elevation)

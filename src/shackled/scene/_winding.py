@@ -4,18 +4,14 @@ from collections.abc import Sequence
 
 import numpy as np
 from attrs import evolve
-from numpy.typing import NDArray
 
+from ..base.checks import Flags, Floats, Ints
 from ..base.values import plural
 from ..errors import warn
 from . import _constants as constant
 from ._arithmetic import dot
 from ._mesh import Mesh, components, face_normals, faces_of_all, part_of_faces
 from ._object import Object
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
-Flags = NDArray[np.bool_]
 
 
 def wound(objects: Sequence[Object], name: str, split: bool) -> list[Object]:

@@ -15,8 +15,8 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...base.checks import Flags, Floats, Ints
 from ...base.values import plural
 from ...errors import InputError, warn
 from .._crease import corner_normals, filled
@@ -28,9 +28,6 @@ from .images import Images
 from .model import REPLACED, Look, MeshPart, Picture, replaced, split, under
 from .mtl import Map, ObjMaterial, material_name, read_materials
 from .polygons import cut, whole
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 
 ABSENT = -1
 
@@ -333,7 +330,7 @@ class _Surfaces:
             self.look[textured] = self.looks.setdefault(replace(look, picture=picture), len(self.looks))
 
 
-def _vertex_colors(obj: _Lines, count: int) -> tuple[NDArray[np.bool_], Floats]:
+def _vertex_colors(obj: _Lines, count: int) -> tuple[Flags, Floats]:
     """Return which of so many vertices have a colour, (n,), and the colours, (n, 3), 0..255; light grey for others."""
     painted, colors = np.zeros(count, dtype=bool), np.full((count, 3), DEFAULT_COLOR, dtype=np.float64)
     levels = np.frombuffer(bytes(obj.polypaint), dtype=np.uint8).reshape(-1, 4)[:count]

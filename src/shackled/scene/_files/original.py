@@ -11,8 +11,8 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...base.checks import Floats
 from ...errors import InputError
 from .._arithmetic import dot, from_euler
 from .._camera import Camera
@@ -103,7 +103,7 @@ def _light(lighting: Table) -> tuple[Material, list[Light]]:
     return material, [Light("directional", vector, hue)]
 
 
-def _light_color(lighting: Table, key: str) -> NDArray[np.float64]:
+def _light_color(lighting: Table, key: str) -> Floats:
     """Return red, green and blue, of any size: the original's powers may be in them."""
     color = np.array(lighting.numbers(key, (255, 255, 255)))
     if (color < 0).any():

@@ -5,13 +5,11 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ....base.checks import Floats
 from ....errors import InputError
 from ..table import Table
 from .document import Document, numbers
-
-Array = NDArray[np.float64]
 
 #: What a channel moves, and how many numbers it has; weights have as many as there are morph targets.
 _PATHS = {"translation": 3, "rotation": 4, "scale": 3, "weights": 0}
@@ -55,7 +53,7 @@ def _length(gltf: Document, animation: Table) -> float:
     return max((float(each.max()) for each in times if len(each) and np.isfinite(each).all()), default=0.0)
 
 
-def _sampled(gltf: Document, sampler: Table, path: str, time: float) -> Array:
+def _sampled(gltf: Document, sampler: Table, path: str, time: float) -> Floats:
     """Return the value of a sampler at a time."""
     times = numbers(gltf, sampler, "input", "SCALAR")[:, 0].astype(np.float64)
     method = sampler.choice("interpolation", ("LINEAR", "STEP", "CUBICSPLINE"), "LINEAR")
@@ -79,7 +77,7 @@ def _sampled(gltf: Document, sampler: Table, path: str, time: float) -> Array:
     return _turned(one, other, share) if path == "rotation" else one + share * (other - one)
 
 
-def _spline(one: Array, other: Array, step: float, s: float) -> Array:
+def _spline(one: Floats, other: Floats, step: float, s: float) -> Floats:
     """Return what lies between two keyframes, each of an incoming tangent, a value and an outgoing tangent."""
     return np.asarray(
         (2 * s**3 - 3 * s**2 + 1) * one[1]
@@ -89,7 +87,7 @@ def _spline(one: Array, other: Array, step: float, s: float) -> Array:
     )
 
 
-def _turned(one: Array, other: Array, share: float) -> Array:
+def _turned(one: Floats, other: Floats, share: float) -> Floats:
     """Return the rotation between two quaternions, on the shorter way."""
     cosine = float(one @ other)
     if cosine < 0:
