@@ -95,7 +95,6 @@ class OutputError(ShackledError, OSError):
     """A file could not be written, for instance because the disk is full."""
 
     def __str__(self) -> str:
-        """Return the name of the file, and why it could not be written."""
         return f"{self.filename} cannot be written: {self.strerror or 'no reason is given'}"
 
 

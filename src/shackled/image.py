@@ -70,7 +70,6 @@ class Image(Value):
     call_gas: int | None = None
 
     def __attrs_post_init__(self) -> None:
-        """Check alpha; encode the pixels where the file is not given."""
         if self.calls == 1 and self.call_gas is None:
             object.__setattr__(self, "call_gas", self.gas)
         if self.alpha is not None and self.alpha.shape != self.pixels.shape[:2]:

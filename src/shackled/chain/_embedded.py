@@ -34,7 +34,6 @@ class EmbeddedChain(ContractChain):
     """A chain in this process. Contracts are created at their first call, after those that their constructors need."""
 
     def __init__(self, gas_limit: int = DEFAULT_GAS_LIMIT) -> None:
-        """Take the default gas limit of calls."""
         self.gas_limit = gas_limit
         self._codes: dict[bytes, bytes] = {}
         self._addresses: dict[str, bytes] = {}
@@ -154,7 +153,6 @@ class RevmChain(EmbeddedChain):
 
 
 def _failed(answer: Answer, gas_limit: int) -> ChainError:
-    """Return the error for a call that was not successful."""
     if answer.status == Status.REVERT:
         return revert_error(answer.output, gas_limit)
     if answer.status == Status.OUT_OF_GAS:

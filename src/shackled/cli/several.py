@@ -191,7 +191,6 @@ def _outcomes(work: Sequence[Work], bar: LateBar) -> Iterator[tuple[int, Outcome
 
 
 def _render(notes: Action, work: Work) -> Outcome:
-    """Render one input, in this process or in one of several."""
     return _heard(partial(work.render, Notes()), notes)
 
 

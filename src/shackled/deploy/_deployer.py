@@ -74,7 +74,6 @@ class Deployer:
     """Deploys contracts through the deterministic-deployment proxy, and records their addresses."""
 
     def __init__(self, connection: Connection, book: AddressBook | None = None) -> None:
-        """Take a connection and an address book; None uses the user's."""
         self.connection = connection
         self.book = AddressBook() if book is None else book
 

@@ -19,7 +19,6 @@ class Interface:
     """
 
     def __init__(self, abi: Iterable[Mapping[str, Any]]) -> None:
-        """Take the entries of an ABI."""
         self._abi = list(abi)
 
     def encode(self, function: str, *arguments: Any) -> bytes:

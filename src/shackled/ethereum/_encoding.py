@@ -96,7 +96,6 @@ def encode_header(block: Mapping[str, Any]) -> bytes:
 
 
 def _rlp(data: bytes) -> bytes:
-    """Encode bytes in RLP."""
     return data if len(data) == 1 and data[0] < 0x80 else _length(len(data), 0x80) + data
 
 

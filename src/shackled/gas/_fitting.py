@@ -97,7 +97,6 @@ class _Fitting:
         self._simpler = {triangles: scene}
 
     def run(self) -> Fitted:
-        """Find the first settings that fit, in the order of the steps."""
         found, least, remark = self._find()
         if found is not None:
             return self._fitted(*found)

@@ -158,7 +158,6 @@ def _inside(uri: str) -> list[Element]:
 
 
 def _of_svg(root: ElementTree.Element) -> list[Element]:
-    """Return the elements of an SVG."""
     return [
         Element(_local(each.tag), {_local(name): value for name, value in each.attrib.items()}, each.text or "")
         for each in root.iter()

@@ -153,7 +153,6 @@ def _object(words: _Words, where: str) -> Object:
 
 
 def _records(data: bytes) -> Records:
-    """Return the records of the extensions."""
     records = {}
     place = 0
     while place < len(data):

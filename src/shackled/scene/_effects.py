@@ -54,7 +54,6 @@ class Fog:
     far: float = field(converter=number)
 
     def __attrs_post_init__(self) -> None:
-        """Check the distances against each other."""
         if self.near >= self.far:
             raise InputError(
                 f"the near distance of the fog, {self.near:g}, must be below its far distance, {self.far:g}"

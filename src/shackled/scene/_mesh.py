@@ -138,7 +138,6 @@ class Mesh(Value):
     opacities: Floats | None = field(default=None, converter=_opacities)
 
     def __attrs_post_init__(self) -> None:
-        """Check the fields against one another."""
         count = len(self.positions)
         if count == 0 or len(self.faces) == 0:
             raise InputError(f"a mesh needs vertices and faces; this one has {count} and {len(self.faces)}")
@@ -202,7 +201,6 @@ class Mesh(Value):
         return len(self.faces)
 
     def __repr__(self) -> str:
-        """Count in one line."""
         vertices = plural(len(self.positions), "vertex", "vertices")
         return f"<Mesh {vertices}, {plural(self.triangles, 'triangle')}>"
 

@@ -132,7 +132,6 @@ class Scene(Hinted):
         write_output(check_output_file(path, "scene"), self.encode())
 
     def __repr__(self) -> str:
-        """Count in one line."""
         return (
             f"<Scene {self.width}x{self.height}, {plural(len(self.objects), 'object')}, "
             f"{plural(self.triangles, 'triangle')}, {plural(len(self.lights), 'light')}>"

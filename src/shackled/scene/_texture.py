@@ -81,7 +81,6 @@ class Texture(Value):
     cutoff: int = field(default=USUAL, converter=whole)
 
     def __attrs_post_init__(self) -> None:
-        """Check that there is an alpha for each texel."""
         shape = self.pixels.shape[:2]
         if self.alpha is not None and self.alpha.shape != shape:
             raise InputError(f"the alpha of a texture must be of shape {shape}, as its pixels, not {self.alpha.shape}")
@@ -129,7 +128,6 @@ class Texture(Value):
         return int(self.pixels.shape[0])
 
     def __repr__(self) -> str:
-        """Count in one line."""
         return f"<Texture {self.width}x{self.height}, {self.filter}, {self.wrap}>"
 
 

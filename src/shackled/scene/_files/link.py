@@ -30,7 +30,6 @@ class Link:
     suffix = ""
 
     def __str__(self) -> str:
-        """Return what it is called."""
         return "the link"
 
     def scene(self, piece: SceneOfPiece) -> Scene:

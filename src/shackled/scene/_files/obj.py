@@ -75,7 +75,6 @@ class _Drawn(NamedTuple):
 
 
 def _read_lines(path: Path) -> _Lines:
-    """Return the lines of a file."""
     obj = _Lines(path)
     material, group = 0, 0
     text = with_points(path, read_text(path), "v|vn|vt")

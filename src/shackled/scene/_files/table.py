@@ -35,7 +35,6 @@ class Table:
         self.where = where
 
     def __contains__(self, key: str) -> bool:
-        """Return whether the key is there."""
         return key in self.values
 
     def place(self, key: str) -> str:

@@ -54,7 +54,6 @@ def _length(gltf: Document, animation: Table) -> float:
 
 
 def _sampled(gltf: Document, sampler: Table, path: str, time: float) -> Floats:
-    """Return the value of a sampler at a time."""
     times = numbers(gltf, sampler, "input", "SCALAR")[:, 0].astype(np.float64)
     method = sampler.choice("interpolation", ("LINEAR", "STEP", "CUBICSPLINE"), "LINEAR")
     width, rows = _PATHS[path], 3 if method == "CUBICSPLINE" else 1

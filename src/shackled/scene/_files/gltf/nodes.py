@@ -54,7 +54,6 @@ def placed(gltf: Document, nodes: Sequence[Table]) -> dict[int, Node]:
 
 
 def _links(keys: Table, key: str, count: int) -> list[int]:
-    """Return the numbers of nodes."""
     for place, number in keys.rows(key):
         if type(number) is not int or not 0 <= number < count:
             raise InputError(f"{place} is {number!r:.20}, but there are {count} nodes, numbered from 0")
