@@ -47,11 +47,6 @@ def parse_checksum_address(text: str, name: str) -> str:
     return checksum_address(parse_address(text, name))
 
 
-def parse_calldata(path: Path, name: str) -> Path:
-    """Return the path of --calldata. InputError if no file can be written there, before the work for it begins."""
-    return check_output_file(path, "list of transactions")
-
-
 def address(name: str, text: str) -> Any:
     """Declare an option whose value is an address."""
     return option(name, text, "ADDRESS", parse=parse_checksum_address)
@@ -71,7 +66,8 @@ CALLDATA = option(
     "Write the transactions to a JSON file for a wallet, and send nothing.",
     "FILE",
     type=Path,
-    parse=parse_calldata,
+    # before the work for it begins
+    parse=lambda path, _: check_output_file(path, "list of transactions"),
 )
 
 

@@ -12,15 +12,7 @@ from ..deploy._transactor import Receipt
 from ..errors import InputError
 from ..ethereum._amounts import GWEI, at_most, rounded
 from ..ethereum._encoding import checksum_address
-from .chain_options import (
-    CALLDATA,
-    NodeOptions,
-    PayerOptions,
-    print_rollup_fee,
-    print_step,
-    wallet_calls,
-    write_calls,
-)
+from .chain_options import CALLDATA, NodeOptions, PayerOptions, print_rollup_fee, print_step, wallet_calls, write_calls
 from .option import option
 from .output import print_json, print_line, print_note, print_table
 

@@ -9,15 +9,13 @@ from ..preview._preview import Preview, Request, Token
 from ..preview._project import CompilerError, Project
 from ..preview._report import folded, summary
 from ..preview._server import serve
-from ..preview._world import stored_scene
+from ..preview._world import MAX_GAS, stored_scene
 from .option import argument, need, option
 from .output import print_json, print_line, print_note, print_table
 from .progress import LateBar
 
 #: Default port of the page.
 PORT = 8090
-#: Gas of one transaction on Ethereum.
-MAX_GAS = 1 << 24
 
 
 def preview(

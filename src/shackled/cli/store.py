@@ -3,7 +3,7 @@
 from pathlib import Path
 from typing import Any
 
-from .._load import is_model, load, locate
+from .._load import locate
 from ..chain._connection import Connection, read_all
 from ..datasets._pieces import Piece
 from ..deploy._quote import Quote, current_fees
@@ -11,20 +11,10 @@ from ..errors import InputError
 from ..ethereum._encoding import checksum_address
 from ..image import FORMATS, check_output, one_of
 from ..library import chosen_items, items
-from ..scene._settings import ALL
-from ..tokens._icons import licence_of, token_scene
+from ..tokens._icons import licence_of, scene_to_store
 from ..tokens._storage import SceneToStore, StoragePlan, plan_storage, read_back
 from ..tokens._storage import store as send
-from .chain_options import (
-    CALLDATA,
-    JSON,
-    NodeOptions,
-    PayerOptions,
-    print_price,
-    print_step,
-    wallet_calls,
-    write_calls,
-)
+from .chain_options import CALLDATA, JSON, NodeOptions, PayerOptions, print_price, print_step, wallet_calls, write_calls
 from .look_options import parse_size
 from .option import argument, exclude, option
 from .output import print_json, print_line, print_note, print_table
@@ -59,11 +49,7 @@ def store(
     terms = licence_of(source, licence)
     node.check()
     payer.check()
-    # a token is drawn by nodes of all kinds, of which many allow a call too little gas for antialiased meshes
-    is_mesh = is_model(source)
-    thing = (token_scene(source) if size is None else source.make()) if isinstance(source, Piece) else source
-    # what is stored can be drawn at any size
-    scene = load(thing, size, max_triangles=max_triangles or ALL, antialias=False if is_mesh else None)
+    scene = scene_to_store(source, size, max_triangles)
     wanted = SceneToStore(input, scene, position_bits)
     connection = node.connect()
     with LateBar("reading the chain"):

@@ -63,6 +63,18 @@ def parse_address(text: str, name: str) -> bytes:
     return address
 
 
+PUSH1, PUSH32 = 0x60, 0x7F
+
+
+def instructions(code: bytes) -> list[int]:
+    """Return the positions of the instructions of a code, without pushed values."""
+    places, at = [], 0
+    while at < len(code):
+        places.append(at)
+        at += 1 + (code[at] - PUSH1 + 1 if PUSH1 <= code[at] <= PUSH32 else 0)
+    return places
+
+
 #: The fields of a header in JSON-RPC, in order.
 HEADER_FIELDS = (
     *("parentHash", "sha3Uncles", "miner", "stateRoot", "transactionsRoot", "receiptsRoot", "logsBloom", "difficulty"),

@@ -11,6 +11,7 @@ from typing import Any
 
 from attrs import evolve
 
+from .._load import is_model, load
 from ..artifacts import artifact
 from ..base.checks import whole
 from ..chain._connection import read_all
@@ -22,6 +23,7 @@ from ..ethereum._amounts import amount
 from ..ethereum._encoding import checksum_address
 from ..scene._files.link import Link
 from ..scene._scene import Scene
+from ..scene._settings import ALL
 from ..studio._storage import STUDIO
 from ._collection import Collection
 from ._contract import Contract
@@ -124,6 +126,17 @@ def token_scene(piece: Piece) -> Scene:
     antialiased.json lists these pieces; `python -m benchmarks.icons` writes it.
     """
     return evolve(piece.make(), antialias=True) if piece.name in _antialiased() else piece.make()
+
+
+def scene_to_store(
+    source: Path | Piece | Link, size: tuple[int, int] | None = None, max_triangles: int | None = None
+) -> Scene:
+    """Return the scene that is stored of a piece, a mesh or a scene file. size, max_triangles: as in `load`."""
+    # a token is drawn by nodes of all kinds, of which many allow a call too little gas for antialiased meshes
+    antialias = False if is_model(source) else None
+    thing = (token_scene(source) if size is None else source.make()) if isinstance(source, Piece) else source
+    # what is stored can be drawn at any size
+    return load(thing, size, max_triangles=max_triangles or ALL, antialias=antialias)
 
 
 @cache
