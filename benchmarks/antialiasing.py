@@ -11,7 +11,8 @@ from statistics import fmean
 from attrs import evolve
 from tools.pages import ROOT, update
 
-from shackled import Scene, render
+from shackled import Scene
+from shackled.bench._measure import gas
 from shackled.datasets import pieces
 from shackled.datasets._pieces import require
 
@@ -43,23 +44,20 @@ def table(scenes: dict[str, list[Scene]]) -> str:
         "|---|" + 7 * "---:|",
     ]
     for name, each in scenes.items():
-        plain, smoothed = (list(gas_of(each, flag)) for flag in (False, True))
-        doubled = list(gas_of([evolve(scene, width=2 * scene.width, height=2 * scene.height) for scene in each], False))
+        plain, smoothed = (gas_of(each, flag) for flag in (False, True))
+        doubled = gas_of([evolve(scene, width=2 * scene.width, height=2 * scene.height) for scene in each], False)
         ratios = [after / before for before, after in zip(plain, smoothed, strict=True)]
         lines.append(
             f"| {name} | {fmean(plain) / 1e6:.2f}M | {fmean(smoothed) / 1e6:.2f}M | {sum(smoothed) / sum(plain):.2f} | "
-            f"{min(ratios):.2f} | {max(ratios):.2f} | {sum(gas < TRANSACTION for gas in smoothed)} of {len(each)} | "
+            f"{min(ratios):.2f} | {max(ratios):.2f} | {sum(cost < TRANSACTION for cost in smoothed)} of {len(each)} | "
             f"{sum(doubled) / sum(plain):.2f} |"
         )
     return "\n".join(lines)
 
 
-def gas_of(scenes: Iterable[Scene], antialias: bool) -> Iterable[int]:
-    """Yield the gas of each picture."""
-    for scene in scenes:
-        gas = render(evolve(scene, antialias=antialias)).gas
-        assert gas is not None
-        yield gas
+def gas_of(scenes: Iterable[Scene], antialias: bool) -> list[int]:
+    """Return the gas of each picture."""
+    return [gas(evolve(scene, antialias=antialias)) for scene in scenes]
 
 
 def main() -> int:

@@ -12,7 +12,8 @@ from typing import Any
 from attrs import evolve
 from tools.readme import EFFECTS
 
-from shackled import Camera, Fog, Light, Material, Mesh, Object, Rim, Scene, Tone, render
+from shackled import Camera, Fog, Light, Material, Mesh, Object, Rim, Scene, Tone
+from shackled.bench._measure import cost
 from shackled.scene import Hemisphere
 
 from . import run_main, write_figures
@@ -73,10 +74,8 @@ ROWS: dict[str, Change] = {
 
 def gas_of_a_pixel(scene: Scene) -> int:
     """Return the gas of a picture for each of its covered pixels."""
-    picture = render(scene)
-    assert picture.gas is not None
-    assert picture.covered_pixels is not None
-    return picture.gas // picture.covered_pixels
+    found = cost(scene)
+    return found.gas // found.lit_pixels
 
 
 def main() -> int:

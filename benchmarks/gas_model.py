@@ -9,6 +9,7 @@ benchmarks/README.md. A model that does not fit one picture, such as one with mo
 
 import warnings
 from collections.abc import Iterable, Iterator
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -28,6 +29,7 @@ from . import publish, read_figures, run_main
 from .workload import workload_of
 
 FILE = Path(__file__).with_name("gas_model.json")
+recorded = partial(read_figures, FILE)
 #: Packages whose models are predicted: small ones.
 HELD_OUT = ("compas", "devjoni-stllib", "node-stl", "pymeshfix", "skeletor")
 #: Triangles of a predicted model at most: the largest mesh of the fit has fewer than half as many.
@@ -149,11 +151,6 @@ def text(figures: dict[str, Any]) -> str:
         " rows and pixels is as of the area.\n\n"
         + table([*head, "median error of the fit", "of the prediction", "largest"], lines)
     )
-
-
-def recorded() -> dict[str, Any]:
-    """Return the figures of gas_model.json."""
-    return read_figures(FILE)
 
 
 def main() -> int:

@@ -6,6 +6,7 @@ measures everything, rewrites icons.json, the table of docs/datasets.md, and the
 antialiased: src/shackled/tokens/antialiased.json.
 """
 
+from functools import partial
 from pathlib import Path
 
 from attrs import evolve
@@ -21,6 +22,7 @@ from shackled.tokens._icons import SCALE
 from . import read_figures, run_main, write_figures
 
 FILE = Path(__file__).with_name("icons.json")
+recorded = partial(read_figures, FILE)
 PAGE = ROOT / "docs" / "datasets.md"
 LIST = ROOT / "src" / "shackled" / "tokens" / "antialiased.json"
 
@@ -65,11 +67,6 @@ def take() -> Figures:
             "antialiased fits": fits(smooth),
         }
     return figures
-
-
-def recorded() -> Figures:
-    """Return the figures of icons.json."""
-    return read_figures(FILE)
 
 
 def fitting(figures: Figures) -> list[str]:

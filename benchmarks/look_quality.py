@@ -9,8 +9,8 @@ so much smaller that it needs the same gas. Rewrites look_quality.json and its t
 
 import sys
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from attrs import evolve
@@ -32,6 +32,7 @@ from judge import render as in_float64
 from . import flip, publish, read_figures, run_main
 
 FILE = Path(__file__).with_name("look_quality.json")
+recorded = partial(read_figures, FILE)
 PIECES = ("teapot", "torus-knot", "icons/crown", "genesis/7")
 SIDE = 128
 #: Sides of the smaller canvases on which the whole look is drawn, the largest first.
@@ -119,11 +120,6 @@ def text(figures: dict[str, dict[str, list[float]]]) -> str:
         f"Means of {', '.join(figures)}, {SIDE} x {SIDE} pixels. To save gas, leaving out a part loses less than a"
         f" smaller canvas for {' and '.join(dear) or 'no part'}.\n\n" + table(head, lines)
     )
-
-
-def recorded() -> dict[str, Any]:
-    """Return the figures of look_quality.json."""
-    return read_figures(FILE)
 
 
 def main() -> int:

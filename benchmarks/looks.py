@@ -8,6 +8,7 @@ docs/parallel.md, and prints the first. Figures of meshes and scenes that are no
 
 from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from statistics import fmean
 
@@ -24,6 +25,7 @@ from . import antialiasing, cost, read_figures, run_main, shared, write_figures
 from .scenes import SECOND_LIGHT, staged_teapot
 
 FILE = Path(__file__).with_name("looks.json")
+recorded = partial(read_figures, FILE)
 PAGES = (ROOT / "docs" / "gas.md", ROOT / "docs" / "parallel.md")
 
 #: Of the meshes: those of the default look.
@@ -126,7 +128,7 @@ def ratios(groups: dict[str, list[Scene]]) -> Figures:
     figures: Figures = {}
     for name, group in (RATIOS | {"smooth": SMOOTH}).items():
         if group in groups:
-            plain, smoothed = (list(antialiasing.gas_of(groups[group], flag)) for flag in (False, True))
+            plain, smoothed = (antialiasing.gas_of(groups[group], flag) for flag in (False, True))
             figures[f"{name}, x"] = sum(smoothed) / sum(plain)
             if group == SMOOTH:
                 figures["smooth"] = fmean(smoothed)
@@ -143,11 +145,6 @@ def table_figures() -> Figures:
         "cube 512": gas(scenes[shared.LARGE_CUBE]),
         "dearest transaction": cost.largest_row().gas,
     }
-
-
-def recorded() -> Figures:
-    """Return the figures of looks.json."""
-    return read_figures(FILE)
 
 
 def table(figures: Figures) -> str:

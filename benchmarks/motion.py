@@ -5,6 +5,7 @@
 measures everything, rewrites motion.json and the table of docs/motion.md, and prints it.
 """
 
+from functools import partial
 from pathlib import Path
 
 from tools.pages import ROOT, update
@@ -21,6 +22,7 @@ from shackled.studio._storage import ANIMATE
 from . import read_figures, run_main, write_figures
 
 FILE = Path(__file__).with_name("motion.json")
+recorded = partial(read_figures, FILE)
 PAGE = ROOT / "docs" / "motion.md"
 
 #: Of the turntables: frames, sides in pixels, and the gas that most nodes give a call without being asked.
@@ -75,11 +77,6 @@ def take() -> Figures:
         for piece in pieces("icons")
         for name, value in measure(resize(piece.make(), (PICTURE, PICTURE))).items()
     }
-
-
-def recorded() -> Figures:
-    """Return the figures of motion.json."""
-    return read_figures(FILE)
 
 
 def fitting(figures: Figures) -> list[str]:

@@ -10,6 +10,7 @@ import sys
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, replace
+from functools import partial
 from itertools import count, islice, product
 from multiprocessing import get_context
 from pathlib import Path
@@ -34,6 +35,7 @@ from conformance.world import World, background, before_camera
 Array = NDArray[np.float64]
 
 FILE = Path(__file__).with_name("quality.json")
+recorded = partial(read_figures, FILE)
 SIDE = 128
 #: Samples of the truth along a side of a pixel: so many in each of so many pictures a side.
 WITHIN, PICTURES = 8, 4
@@ -142,11 +144,6 @@ def measure(results: list[tuple[dict[str, Array], list[float]]]) -> Figures:
         **{kind: dict(zip(JUDGED, each.mean(axis=0).round(2).tolist(), strict=True)) for kind, each in errors.items()},
         "FLIP": dict(zip(JUDGED, flips.round(4).tolist(), strict=True)),
     }
-
-
-def recorded() -> dict[str, Figures]:
-    """Return the figures of quality.json."""
-    return read_figures(FILE)
 
 
 def table(figures: dict[str, Figures]) -> str:

@@ -6,6 +6,7 @@ measures everything, rewrites tokens.json and the table of docs/tokens.md, and p
 """
 
 import statistics
+from functools import partial
 from pathlib import Path
 
 from tools.pages import update
@@ -19,6 +20,7 @@ from . import read_figures, run_main, write_figures
 
 ROOT = Path(__file__).resolve().parent.parent
 FILE = Path(__file__).with_name("tokens.json")
+recorded = partial(read_figures, FILE)
 PAGE = ROOT / "docs" / "tokens.md"
 
 #: Gas of the contracts of 2021, as measured on them.
@@ -137,11 +139,6 @@ def token_uris(s: Launched, seeds: int) -> Figures:
         figures[f"{name}, most of {seeds}"] = max(values)
     figures[f"tokenURI, above 10 million, of {seeds}"] = sum(value > 10_000_000 for value in gas)
     return figures
-
-
-def recorded() -> Figures:
-    """Return the figures of tokens.json."""
-    return read_figures(FILE)
 
 
 def table(figures: Figures) -> str:
