@@ -3,7 +3,7 @@
 import argparse
 import json
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NoReturn
@@ -57,6 +57,17 @@ def read_figures(path: Path) -> dict[str, Any]:
 def write_figures(path: Path, figures: Any, sort_keys: bool = False) -> None:
     """Write figures to a JSON file."""
     path.write_text(json.dumps(figures, indent=1, sort_keys=sort_keys) + "\n", "utf-8")
+
+
+def measured(heading: str, parts: Iterable[Callable[[], Section]]) -> tuple[str, dict[str, Any]]:
+    """Measure parts, print each, and return the whole text and the figures by the titles."""
+    written, data = [heading], {}
+    for part in parts:
+        section = part()
+        written.append(f"## {section.title}\n\n{section.text}\n")
+        print(written[-1], flush=True)
+        data[section.title] = section.data
+    return "\n".join(written), data
 
 
 def publish(name: str, figures: dict[str, Any], text: str) -> int:
