@@ -11,7 +11,7 @@ import textwrap
 import tomllib
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from itertools import chain, pairwise
+from itertools import chain, count, pairwise
 from pathlib import Path
 from typing import Any
 
@@ -106,13 +106,7 @@ def registers(table: dict[str, Any]) -> dict[str, list[Section]]:
         constants: list[Constant] = []
         for names, words, text in rows_of_registers(part):
             size = WORD * words
-
-            def places(first: int = address, step: int = size) -> Iterator[int]:
-                while True:
-                    yield first
-                    first += step
-
-            found = tuple(named(names, text, places()))
+            found = tuple(named(names, text, count(address, size)))
             address += size * len(found)
             constants += found
         if name := part.get("block"):
