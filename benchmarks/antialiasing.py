@@ -31,9 +31,10 @@ def groups() -> dict[str, list[Scene]]:
         "Genesis 0 to 23": [require(f"genesis/{number}").make() for number in range(24)],
     }
     if shared.is_there():
-        found["15 objects of the cost table, flat"] = [shared.scene(name) for name in shared.objects()]
-        found["the same, smooth"] = [shared.smooth(shared.scene(name)) for name in shared.objects()]
-        found["the same, unlit"] = [shared.unlit(shared.scene(name)) for name in shared.objects()]
+        scenes, names = shared.table_scenes(), shared.objects()
+        found["15 objects of the cost table, flat"] = [scenes[name] for name in names]
+        found["the same, smooth"] = [scenes[name + shared.SMOOTH_SUFFIX] for name in names]
+        found["the same, unlit"] = [scenes[name + shared.UNLIT_SUFFIX] for name in names]
     return found
 
 
