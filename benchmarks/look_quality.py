@@ -14,11 +14,11 @@ from pathlib import Path
 
 import numpy as np
 from attrs import evolve
-from numpy.typing import NDArray
 from PIL import Image as PillowImage
 from tools.pages import ROOT
 
 from shackled import Rim, Scene, Tone, load, render
+from shackled.base.checks import Floats
 from shackled.bench._report import table, wrapped
 from shackled.scene import Hemisphere
 from shackled.scene._codec import render_call
@@ -39,8 +39,6 @@ SIDE = 128
 SIDES = (128, 120, 112, 104, 96, 80, 64, 48, 32)
 #: The truth has so many pixels along a side of a pixel, of four samples each.
 FINER = 4
-
-Pixels = NDArray[np.float64]
 
 
 def plain(piece: str) -> Scene:
@@ -77,14 +75,14 @@ LOOKS: dict[str, tuple[Callable[[str], Scene], dict[str, Callable[[Scene], Scene
 }
 
 
-def truth(scene: Scene) -> Pixels:
+def truth(scene: Scene) -> Floats:
     """Return the picture in float64, (H, W, 3), from 0 to 255."""
     large = evolve(scene, width=FINER * scene.width, height=FINER * scene.height)
     exact = in_float64(render_call(in_range(large))).exact
     return np.asarray(exact.reshape(scene.height, FINER, scene.width, FINER, 3).mean(axis=(1, 3)))
 
 
-def drawn(scene: Scene, right: Pixels) -> tuple[int, float]:
+def drawn(scene: Scene, right: Floats) -> tuple[int, float]:
     """Return the gas of a scene, and the FLIP of its picture, enlarged as browsers do."""
     image = render(scene)
     assert image.gas is not None
