@@ -53,13 +53,9 @@ decodeImagesBy(decodeInNode);
 try {
     await main(process.argv.slice(2));
 } catch (error) {
-    const { code, message } = error as Error & { code?: unknown };
-    if (
-        !(error instanceof InputError) &&
-        !String(code).startsWith("ERR_PARSE_ARGS") &&
-        (error as Error).name !== "CallError"
-    )
-        throw error;
+    const { code, name, message } = error as Error & { code?: unknown };
+    const isOfOptions = String(code).startsWith("ERR_PARSE_ARGS");
+    if (!isOfOptions && !(error instanceof InputError) && name !== "CallError") throw error;
     console.error(message);
     process.exitCode = 2;
 }

@@ -3,7 +3,7 @@
 import { InputError } from "./errors.js";
 import { bytesAt, toHex, wordAt } from "./bytes.js";
 import type { ContractEvm } from "./evm/contracts.js";
-import { FUNCTIONS, type FunctionName } from "./scene/encode.js";
+import { FUNCTIONS, functionOf, type FunctionName } from "./scene/encode.js";
 import { MAX_SIDE } from "./scene/fields.js";
 
 /** A picture as a contract made it. */
@@ -40,12 +40,6 @@ export function drawCall(evm: ContractEvm, call: Uint8Array, gas?: number): Pict
         ? { triangles: wordAt(answer.output, 32, 2 ** 32), litPixels: wordAt(answer.output, 64, 2 ** 32) }
         : {};
     return { ...decodeBitmap(bmp), bmp, gas: answer.gas, ...counts };
-}
-
-/** Return the function that a call is of. */
-export function functionOf(call: Uint8Array): FunctionName | undefined {
-    const selector = call.length < 4 ? -1 : new DataView(call.buffer, call.byteOffset).getUint32(0);
-    return (Object.keys(FUNCTIONS) as FunctionName[]).find((name) => FUNCTIONS[name] === selector);
 }
 
 /** Return the same call of another function that takes the same arguments. */

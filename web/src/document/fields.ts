@@ -280,11 +280,8 @@ function lampPart(number: number): Part {
         },
         // what another kind of light does not have, and the shadow that another light has, come back
         reset: ({ doc }, own, key) => {
-            if (key === "shadow")
-                return setShadow(
-                    doc,
-                    own.lights.findIndex(({ shadow }) => shadow),
-                );
+            const shadowed = own.lights.findIndex(({ shadow }) => shadow);
+            if (key === "shadow") return setShadow(doc, shadowed);
             const [here, there] = [doc, own].map(({ lights }) => lights[number]);
             if (key !== "kind" || !here || !there) return undefined;
             const { kind, distance, target, innerAngle, outerAngle } = lampOf(there, doc.frame);

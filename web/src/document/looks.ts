@@ -41,13 +41,9 @@ function surfaced(item: Item, { material, color, wireframe }: Preset): Item {
 
 /** Return the name of the look that a document has; null where it has another one. */
 export function lookOf(doc: Document): string | null {
-    const found = LOOKS.find(({ name }) => {
-        const { objects, ambientLight, background, invert } = applyLook(doc, name);
-        return (
-            JSON.stringify([doc.objects, doc.ambientLight, doc.background, doc.invert]) ===
-            JSON.stringify([objects, ambientLight, background, invert])
-        );
-    });
+    const shown = ({ objects, ambientLight, background, invert }: Document): string =>
+        JSON.stringify([objects, ambientLight, background, invert]);
+    const found = LOOKS.find(({ name }) => shown(applyLook(doc, name)) === shown(doc));
     return found && found.lamps.length === doc.lights.length ? found.name : null;
 }
 

@@ -294,11 +294,8 @@ export async function openSceneFile(json: string | object, library: Library, abo
         }
     });
     const known = Object.assign({}, about, ...["title", "notice", "licence"].map((key) => text(creator, key))) as About;
-    const { document, meshes } = documentOfScene(
-        scene,
-        known,
-        extras.map((each, index) => ({ ...names[index], ...each })),
-    );
+    const called = extras.map((each, index) => ({ ...names[index], ...each }));
+    const { document, meshes } = documentOfScene(scene, known, called);
     const frame = creator.table("frame");
     const [middle, radius] = [frame.read("middle", check.vector), frame.number("radius", 1e-30)];
     const lightsFollow = creator.read("lights_follow", check.flag) ?? false;

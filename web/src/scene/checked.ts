@@ -136,12 +136,10 @@ const checkedTexture = checkedOnce((texture: given.Texture, where: string): Text
         }
         checkLevels(alpha, `${where}.alpha`);
     }
+    const level = (_: unknown, at: number): number => pixels[channels * Math.floor(at / 3) + (at % 3)] as number;
     return {
         ...own,
-        pixels: Uint8Array.from(
-            { length: 3 * count },
-            (_, at) => pixels[channels * Math.floor(at / 3) + (at % 3)] as number,
-        ),
+        pixels: Uint8Array.from({ length: 3 * count }, level),
         alpha: alpha && Uint8Array.from(alpha),
     };
 });

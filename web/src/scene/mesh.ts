@@ -6,12 +6,12 @@ import { checkedMesh, type Mesh } from "./checked.js";
 import { remembered } from "./memory.js";
 
 /** Bits of the first byte. */
-const NORMALS = 1;
-const WIDE = 2;
+export const NORMALS = 1;
+export const WIDE = 2;
 /** Bytes before the vertices. */
-const HEADER = 5;
+export const HEADER = 5;
 /** Bytes of a face. */
-const FACE = 6;
+export const FACE = 6;
 
 const MAX_COUNT = 65535;
 /** The largest coordinates, of 16 and of 24 bits. */

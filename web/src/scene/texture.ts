@@ -38,10 +38,8 @@ export const packTexture = remembered((texture: Texture, uvs: Float64Array): Uin
 
 /** Return the bytes of the record ALPHA of a texture that has an alpha, in whole words. */
 export const packAlpha = remembered((texture: Texture, alpha: Uint8Array): Uint8Array => {
-    const image = packImage(
-        texture,
-        Uint8Array.from({ length: 3 * alpha.length }, (_, at) => alpha[Math.floor(at / 3)] as number),
-    );
+    const greys = Uint8Array.from({ length: 3 * alpha.length }, (_, at) => alpha[Math.floor(at / 3)] as number);
+    const image = packImage(texture, greys);
     const bytes = words(1 + image.length);
     bytes[0] = texture.cutoff;
     bytes.set(image, 1);

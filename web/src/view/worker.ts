@@ -3,8 +3,8 @@
 import { InputError } from "../errors.js";
 import { CallError, ContractEvm } from "../evm/contracts.js";
 import { NodeError, askNode, readStored } from "../evm/rpc.js";
-import { drawCall, functionOf, hashPixels, withFunction } from "../picture.js";
-import { isTiled } from "../scene/encode.js";
+import { drawCall, hashPixels, withFunction } from "../picture.js";
+import { functionOf, isTiled } from "../scene/encode.js";
 import { describeCall, resizeCall, turnCall } from "../turn.js";
 import { serve, type Asking } from "../workers/serve.js";
 import type { Checked, Drawn, Opened, Requests, Source, Supplies, Wish } from "./protocol.js";
@@ -81,12 +81,9 @@ async function check({ url, wish, call: opened }: Requests["check"][0]): Promise
         const own = drawCall(machine(), call).bmp;
         const equal = own.length === asked.bmp.length && own.every((byte, index) => byte === asked.bmp[index]);
         const who = asked.deployed ? "the contract deployed on its chain" : "the contract's code, sent along";
-        return equal
-            ? {
-                  outcome: "equal",
-                  message: `Equal: all ${own.length.toLocaleString("en")} bytes, computed there by ${who}.`,
-              }
-            : { outcome: "different", message: `Different: ${who}, computed other bytes there.` };
+        if (!equal) return { outcome: "different", message: `Different: ${who}, computed other bytes there.` };
+        const count = own.length.toLocaleString("en");
+        return { outcome: "equal", message: `Equal: all ${count} bytes, computed there by ${who}.` };
     } catch (error) {
         if (error instanceof CallError) return { outcome: "different", message: `Different: there, ${error.message}.` };
         if (error instanceof NodeError || error instanceof InputError) {

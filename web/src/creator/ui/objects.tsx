@@ -23,23 +23,10 @@ export function Objects({ app }: { app: App }) {
     const reorder = (by: number): void => app.change(reordered(app.doc.value, one as string, by), "Change the order");
     const [several, some] = [objects.length > 1, selected.size > 0 && selected.size < objects.length];
     const [isFirst, isLast] = [place === 0, place === objects.length - 1];
+    const moves = several && one !== null;
     const actions: (IconAction | false | null)[] = [
-        several &&
-            one !== null && {
-                id: "object-up",
-                name: "up",
-                label: "Draw earlier",
-                disabled: isFirst,
-                onClick: () => reorder(-1),
-            },
-        several &&
-            one !== null && {
-                id: "object-down",
-                name: "down",
-                label: "Draw later",
-                disabled: isLast,
-                onClick: () => reorder(1),
-            },
+        moves && { id: "object-up", name: "up", label: "Draw earlier", disabled: isFirst, onClick: () => reorder(-1) },
+        moves && { id: "object-down", name: "down", label: "Draw later", disabled: isLast, onClick: () => reorder(1) },
         { id: "add-object", name: "plus", label: "Add an object from the shelf", onClick: add },
         { id: "duplicate", name: "copy", label: "Duplicate (D)", onClick: () => duplicate(app) },
         some && { id: "remove", name: "remove", label: "Remove (Delete)", onClick: () => remove(app) },

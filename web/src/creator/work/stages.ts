@@ -1,6 +1,6 @@
 // A picture of the result of each stage of the pipeline, as src/shackled/stages.py draws them: docs/explain.md.
 
-import { add, boundsOf, cross, dot, rint, subtract, unit, type Vector } from "../../scene/arithmetic.js";
+import { add, boundsOf, clamped, cross, dot, rint, subtract, unit, type Vector } from "../../scene/arithmetic.js";
 import { drawCall, withFunction } from "../../picture.js";
 import { checkedMesh, checkedScene, worldPositions } from "../../scene/checked.js";
 import { encode } from "../../scene/encode.js";
@@ -104,7 +104,7 @@ function projected({ camera, width, height }: FittedScene, points: ReturnType<ty
 /** Draw points as dots over nothing, with the ellipses of Pillow. */
 function withDots({ width, height }: { width: number; height: number }, dots: Dot[]): Picture {
     const picture = nothing(width, height);
-    const few = Math.min(Math.max(5 - 1.6 * Math.log10(Math.max(1, dots.length)), 1), 4);
+    const few = clamped(5 - 1.6 * Math.log10(Math.max(1, dots.length)), 1, 4);
     const radius = Math.max(0.5, (Math.min(width, height) / 256) * few);
     for (const { x, y, color } of dots.toSorted((a, b) => a.order - b.order)) {
         const [left, right] = [Math.trunc(x - 0.5 - radius), Math.trunc(x - 0.5 + radius)];
