@@ -70,11 +70,13 @@ def measured(heading: str, parts: Iterable[Callable[[], Section]]) -> tuple[str,
     return "\n".join(written), data
 
 
-def publish(name: str, figures: dict[str, Any], text: str) -> int:
-    """Write the figures of a module of this folder to NAME.json, its text to the README; return the exit code."""
+def publish(name: str, figures: dict[str, Any], text: str, page: Path = README, mark: str | None = None) -> int:
+    """Print a text. Write the figures of a module of this folder to NAME.json, the text to a page under its mark, by
+    default the name of the module. Return the exit code.
+    """
     print(text)
     write_figures(FOLDER / f"{name}.json", figures)
-    return update({README: {name: text}.get}, f"python -m benchmarks.{name}")
+    return update({page: {mark or name: text}.get}, f"python -m benchmarks.{name}")
 
 
 def flip(right: ArrayLike, seen: ArrayLike) -> float:

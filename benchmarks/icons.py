@@ -10,7 +10,7 @@ from functools import partial
 from pathlib import Path
 
 from attrs import evolve
-from tools.pages import ROOT, update
+from tools.pages import ROOT
 from tools.tokens.launched import PRICE, launched, store_scene
 from tools.tokens.world import Refused
 
@@ -19,7 +19,7 @@ from shackled.ethereum._encoding import intrinsic_gas
 from shackled.scene._look import resize
 from shackled.tokens._icons import SCALE
 
-from . import read_figures, run_main, write_figures
+from . import publish, read_figures, run_main, write_figures
 
 FILE = Path(__file__).with_name("icons.json")
 recorded = partial(read_figures, FILE)
@@ -87,10 +87,8 @@ def table(figures: Figures) -> str:
 def main() -> int:
     """Measure, print and write the figures."""
     figures = take()
-    print(table(figures))
-    write_figures(FILE, figures)
     write_figures(LIST, fitting(figures))
-    return update({PAGE: {"icons": table(figures)}.get}, "python -m benchmarks.icons")
+    return publish("icons", figures, table(figures), PAGE)
 
 
 if __name__ == "__main__":

@@ -9,16 +9,15 @@ import statistics
 from functools import partial
 from pathlib import Path
 
-from tools.pages import update
+from tools.pages import ROOT
 from tools.tokens.launched import ALLOW_LIST, ICONS, LIMIT, PRICE, Launched, icon_scene, launched, store_scene
 from tools.tokens.merkle import proof_of, root_of
 from tools.tokens.world import GAS, ZERO, account, keccak
 
 from shackled.datasets.genesis import seed_of
 
-from . import read_figures, run_main, write_figures
+from . import publish, read_figures, run_main
 
-ROOT = Path(__file__).resolve().parent.parent
 FILE = Path(__file__).with_name("tokens.json")
 recorded = partial(read_figures, FILE)
 PAGE = ROOT / "docs" / "tokens.md"
@@ -152,9 +151,7 @@ def table(figures: Figures) -> str:
 def main() -> int:
     """Measure, print and write the figures."""
     figures = take()
-    print(table(figures))
-    write_figures(FILE, figures)
-    return update({PAGE: lambda _: table(figures)}, "python -m benchmarks.tokens")
+    return publish("tokens", figures, table(figures), PAGE, "gas")
 
 
 if __name__ == "__main__":
