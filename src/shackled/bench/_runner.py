@@ -42,7 +42,6 @@ class Runner:
         self._show = show
 
     def run(self, name: str) -> ExperimentReport:
-        """Run one of EXPERIMENTS."""
         module = "linear" if name == "triangles" else name
         report: ExperimentReport = getattr(import_module(f"._{module}", __package__), name)(self)
         return report

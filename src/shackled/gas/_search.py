@@ -34,7 +34,6 @@ class Search:
 
     @property
     def calls(self) -> int:
-        """Return the number of calls."""
         return len(self.steps)
 
 

@@ -50,12 +50,10 @@ def units(v: Floats) -> Floats:
 
 
 def cosine(degrees: float) -> float:
-    """Return the cosine of an angle."""
     return _series(degrees)[0] / (1 << BITS)
 
 
 def sine(degrees: float) -> float:
-    """Return the sine of an angle."""
     return _series(degrees)[1] / (1 << BITS)
 
 

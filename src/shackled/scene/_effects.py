@@ -127,5 +127,4 @@ def fog_or_color(value: Any, name: str) -> Fog | Color | None:
 
 
 def tone_of(value: Tone | None) -> Tone | None:
-    """Return a tone, or None."""
     return None if value is None else instance(value, "the tone of a scene", Tone)

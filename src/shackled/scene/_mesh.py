@@ -300,6 +300,5 @@ def weld(
 
 
 def is_trimesh(value: object) -> bool:
-    """Return whether a value is an object of trimesh."""
     # its arrays are its own, too
     return type(value).__module__.partition(".")[0] == "trimesh" and not isinstance(value, np.ndarray)

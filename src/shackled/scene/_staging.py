@@ -127,7 +127,6 @@ def staged(points: Floats, width: int, height: int) -> tuple[Camera, tuple[Light
 
 
 def painted(mesh: Mesh, color: ArrayLike | str) -> Mesh:
-    """Return the mesh in one colour."""
     return evolve(mesh, colors=checks.color(color, "the colour of a mesh"))
 
 

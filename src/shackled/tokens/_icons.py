@@ -81,7 +81,6 @@ def icon_at(collection: Collection, number: int) -> CollectionIcon:
 
 
 def icons_of(collection: Collection) -> list[CollectionIcon]:
-    """Return all icons of a collection."""
     return list(read_all(partial(icon_at, collection), range(collection.contract.call("iconCount"))))
 
 
