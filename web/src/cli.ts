@@ -183,10 +183,8 @@ function changed(given: Document, meshes: Meshes, values: Values): Document {
         const [top, bottom = top] = colors.map((color) => toHex(color, "#"));
         doc = { ...doc, background: { top, bottom } };
     }
-    const [azimuth, elevation] = [
-        numberOf(values, "azimuth"),
-        numberOf(values, "elevation", ...FIELDS.Camera.elevation.limits),
-    ];
+    const azimuth = numberOf(values, "azimuth");
+    const elevation = numberOf(values, "elevation", ...FIELDS.Camera.elevation.limits);
     if (azimuth === undefined && elevation === undefined) return doc;
     const angles = { ...(azimuth !== undefined && { azimuth }), ...(elevation !== undefined && { elevation }) };
     return fitted(withCamera(doc, angles), meshes);

@@ -242,12 +242,8 @@ function control([path, label, own = {}, help]: Row): Control {
             pairs(doc, selection, own, meshes).some(([ids, value]) => read(scope(doc, ids, meshes)) !== value),
         reset: (doc, selection, own, meshes) => {
             const known = part.reset?.(scope(doc, selection, meshes), own, key, axis);
-            const made =
-                known ??
-                pairs(doc, selection, own, meshes).reduce(
-                    (before, [ids, value]) => put(scope(before, ids, meshes), value),
-                    doc,
-                );
+            const back = (before: Document, [ids, value]: [Selection, Value]) => put(scope(before, ids, meshes), value);
+            const made = known ?? pairs(doc, selection, own, meshes).reduce(back, doc);
             return part.exact?.(made, own) ?? made;
         },
     } as Control;

@@ -22,13 +22,8 @@ export function applyLook(doc: Document, name: string, ids: Selection = ALL): Do
     const { azimuth } = orbitOf(doc.camera, doc.frame);
     const isShadowed = doc.lights.some(({ shadow }) => shadow);
     const lights = look.lamps.map((lamp, number): Light => {
-        const placed = {
-            ...LAMP,
-            ...lamp,
-            azimuth: around(lamp.azimuth + azimuth),
-            shadow: isShadowed && number === 0,
-        };
-        return lightOf(placed, doc.frame);
+        const turned = { ...lamp, azimuth: around(lamp.azimuth + azimuth) };
+        return lightOf({ ...LAMP, ...turned, shadow: isShadowed && number === 0 }, doc.frame);
     });
     const { ambientLight, background, invert } = look;
     return { ...changed(doc, ids, (item) => surfaced(item, look)), lights, ambientLight, background, invert };

@@ -223,12 +223,10 @@ function prepare({ json, leaveOut }: Gltf): void {
         const older = material.extensions?.KHR_materials_pbrSpecularGlossiness;
         if (older) {
             const { diffuseFactor, diffuseTexture, glossinessFactor = 1, specularGlossinessTexture } = older;
-            const base = { baseColorFactor: diffuseFactor, baseColorTexture: diffuseTexture, metallicFactor: 0 };
-            const rough = {
-                roughnessFactor: 1 - glossinessFactor,
-                metallicRoughnessTexture: specularGlossinessTexture,
+            material.pbrMetallicRoughness = {
+                ...{ baseColorFactor: diffuseFactor, baseColorTexture: diffuseTexture, metallicFactor: 0 },
+                ...{ roughnessFactor: 1 - glossinessFactor, metallicRoughnessTexture: specularGlossinessTexture },
             };
-            material.pbrMetallicRoughness = { ...base, ...rough };
         }
         const keys = (material.pbrMetallicRoughness ??= {});
         if (material.normalTexture) leaveOut("normal texture");

@@ -134,10 +134,9 @@ export function isPlain(
     const { width, height, pixels } = image;
     if (hasAlpha) return false;
     const [red, green, blue] = pixels;
-    image.isOne ??= !isSomewhere(
-        image,
-        (_, at) => pixels[at] !== red || pixels[at + 1] !== green || pixels[at + 2] !== blue,
-    );
+    const isOther = (_: unknown, at: number): boolean =>
+        pixels[at] !== red || pixels[at + 1] !== green || pixels[at + 2] !== blue;
+    image.isOne ??= !isSomewhere(image, isOther);
     if (image.isOne) return true;
     const colorAt = (x: number, y: number): number => {
         const at = 4 * (y * width + x);

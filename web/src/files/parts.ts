@@ -62,9 +62,8 @@ export function partsOf(
     const images = [...new Set(surfaces.map(({ picture }) => picture?.image))];
     const groups = new Map<string, Group>();
     const lists = surfaces.map((): number[] => []);
-    const areas = Float64Array.from({ length: faces.length / 3 }, (_, triangle) =>
-        areaOf(positions, faces.subarray(3 * triangle)),
-    );
+    const area = (_: unknown, triangle: number): number => areaOf(positions, faces.subarray(3 * triangle));
+    const areas = Float64Array.from({ length: faces.length / 3 }, area);
     areas.forEach((area, triangle) => Number.isNaN(area) || lists[surface?.[triangle] ?? 0].push(triangle));
     const lost = areas.filter(Number.isNaN).length;
     if (lost === areas.length)
@@ -160,10 +159,8 @@ export function ofCorners(
     what: string,
     { tell }: Source,
 ): Float64Array {
-    const found = Float64Array.from(
-        { length: width * vertices.length },
-        (_, at) => rows[width * vertices[Math.floor(at / width)] + (at % width)],
-    );
+    const value = (_: unknown, at: number): number => rows[width * vertices[Math.floor(at / width)] + (at % width)];
+    const found = Float64Array.from({ length: width * vertices.length }, value);
     const bad = found.filter((x) => !Number.isFinite(x)).length;
     if (bad) tell(`${what} that are not finite numbers are not used: ${bad.toLocaleString("en")}`);
     return bad ? found.map((x) => (Number.isFinite(x) ? x : 0)) : found;

@@ -381,9 +381,7 @@ function stagedCamera(points: Float64Array, aspect: number): given.Camera {
     if (!(size < LARGEST))
         throw new InputError("the coordinates of the objects are too large for a camera to be placed");
     size ||= 1;
-    const camera = frame(
-        points.map((x) => x / size),
-        { ...VIEW, aspect },
-    );
+    const shape = points.map((x) => x / size);
+    const camera = frame(shape, { ...VIEW, aspect });
     return { ...camera, eye: times(size, camera.eye), target: times(size, camera.target) };
 }

@@ -50,11 +50,8 @@ export const packAlpha = remembered((texture: Texture, alpha: Uint8Array): Uint8
 export function unpackTexture(packed: Uint8Array, vertices: number): { texture: Texture; uvs: Float64Array } {
     const { texture, end } = unpackImage(packed, 6 * vertices);
     const view = new DataView(packed.buffer, packed.byteOffset + end);
-    const uvs = Float64Array.from(
-        { length: 2 * vertices },
-        (_, at) => (view.getInt8(3 * at) * 65536 + view.getUint16(3 * at + 1)) / UV_ONE,
-    );
-    return { texture, uvs };
+    const uv = (_: unknown, at: number): number => (view.getInt8(3 * at) * 65536 + view.getUint16(3 * at + 1)) / UV_ONE;
+    return { texture, uvs: Float64Array.from({ length: 2 * vertices }, uv) };
 }
 
 /** Return the texture with the alpha of what `packAlpha` made, or would make otherwise. */

@@ -167,10 +167,8 @@ export class ShackledView extends HTMLElement {
             try {
                 const { width, height } = this.#facts;
                 const wish = { turn: this.#turn, width, height, samples: 1, hashed: false } as const;
-                checked = await this.#workers.ask("check", { url, wish, call: this.#call }, "check", {
-                    signal: this.#asked.signal,
-                    limit: CHECK_TIMEOUT,
-                });
+                const options = { signal: this.#asked.signal, limit: CHECK_TIMEOUT };
+                checked = await this.#workers.ask("check", { url, wish, call: this.#call }, "check", options);
             } catch (error) {
                 const why = error instanceof Cancelled ? "the scene changed" : messageOf(error);
                 checked = { outcome: "unknown", message: `The check was interrupted: ${why}.` };

@@ -35,10 +35,7 @@ export function stagesOf(host: Host, scene: Scene): Stage[] {
     const drawn = host.draw(scene);
     const counts = drawCall(host.evm, withFunction(encode(scene), "renderCounted"));
     const plain: Scene = { ...scene, invert: false, antialias: false };
-    const each = (change: (object: SceneObject) => SceneObject): Scene => ({
-        ...plain,
-        objects: plain.objects.map(change),
-    });
+    const [wires, shades] = [edges, filled].map((change) => ({ ...plain, objects: plain.objects.map(change) }));
     const say = (count: number | undefined): string => (count ?? 0).toLocaleString("en");
     const stage = (title: string, detail: string, picture: Picture): Stage => ({ title, detail, drawn: picture });
     return [
@@ -48,8 +45,8 @@ export function stagesOf(host: Host, scene: Scene): Stage[] {
             withDots(sent, specified(sent, points)),
         ),
         stage("Vertex shader", `${say(inside.length)} points on the canvas`, withDots(sent, inside)),
-        stage("Primitive assembly", `${say(counts.triangles)} triangles left`, overNothing(host, each(edges))),
-        stage("Rasterization", `${say(counts.litPixels)} pixels covered`, overNothing(host, each(filled))),
+        stage("Primitive assembly", `${say(counts.triangles)} triangles left`, overNothing(host, wires!)),
+        stage("Rasterization", `${say(counts.litPixels)} pixels covered`, overNothing(host, shades!)),
         stage("Fragment shader", lightsOf(scene), overNothing(host, plain)),
         stage("Compositing", `${drawn.width} x ${drawn.height} pixels, ${say(drawn.gas)} gas`, drawn),
     ];

@@ -156,13 +156,8 @@ export class Work {
             this.call(doc, options),
         ]);
         const sha256 = (await hashPixels(drawn.pixels)) ?? "";
-        const page = await pageOf(this.#assets, {
-            doc,
-            drawn,
-            png: new Uint8Array(await png.arrayBuffer()),
-            call,
-            sha256,
-        });
+        const file = new Uint8Array(await png.arrayBuffer());
+        const page = await pageOf(this.#assets, { doc, drawn, png: file, call, sha256 });
         return new Blob([page], { type: "text/html" });
     }
 
