@@ -171,7 +171,7 @@ const typed = (element: Element): boolean =>
 const own = (element: Element, key: string): boolean =>
     key === "Enter"
         ? element.closest("button, a, summary, input, label") !== null
-        : key.length > 1 && key !== "Escape" && element.closest("input:not([type=checkbox]), [role=tablist]") !== null;
+        : key.length > 1 && key !== "Escape" && element.closest("input:not([type=checkbox])") !== null;
 
 /** Listen to the keys of the page. */
 export function listenToKeys(app: App): void {
