@@ -63,9 +63,9 @@ export function decodeBitmap(bmp: Uint8Array): Pick<Picture, "width" | "height" 
     for (let y = 0, to = 0; y < height; y++) {
         let from = begin + row * (height - 1 - y);
         for (let x = 0; x < width; x++, from += 3, to += 4) {
-            pixels[to] = bmp[from + 2] as number;
-            pixels[to + 1] = bmp[from + 1] as number;
-            pixels[to + 2] = bmp[from] as number;
+            pixels[to] = bmp[from + 2];
+            pixels[to + 1] = bmp[from + 1];
+            pixels[to + 2] = bmp[from];
             pixels[to + 3] = 255;
         }
     }
@@ -79,9 +79,9 @@ export async function hashPixels(pixels: Uint8ClampedArray): Promise<string | nu
     if (!subtle) return null;
     const rgb = new Uint8Array((pixels.length / 4) * 3);
     for (let from = 0, to = 0; from < pixels.length; from += 4, to += 3) {
-        rgb[to] = pixels[from] as number;
-        rgb[to + 1] = pixels[from + 1] as number;
-        rgb[to + 2] = pixels[from + 2] as number;
+        rgb[to] = pixels[from];
+        rgb[to + 1] = pixels[from + 1];
+        rgb[to + 2] = pixels[from + 2];
     }
     return toHex(new Uint8Array(await subtle.digest("SHA-256", rgb)), "");
 }

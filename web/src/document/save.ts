@@ -134,7 +134,7 @@ export function digestOf(mesh: Mesh, normals: Mesh["normals"], texture: Texture 
     for (const each of [new TextEncoder().encode(JSON.stringify(more)), ...tables]) {
         if (!each) continue;
         for (const byte of new Uint8Array(each.buffer, each.byteOffset, each.byteLength)) {
-            for (let lane = 0; lane < 4; lane++) lanes[lane] = Math.imul(lanes[lane] ^ byte, FACTORS[lane] as number);
+            for (let lane = 0; lane < 4; lane++) lanes[lane] = Math.imul(lanes[lane] ^ byte, FACTORS[lane]);
         }
     }
     return Array.from(lanes, (each) => each.toString(16).padStart(8, "0")).join("");

@@ -92,7 +92,7 @@ export interface Asked {
 export async function askNode(url: string, call: Uint8Array, contracts: Contracts): Promise<Asked> {
     const entries = RENDERER.map((name) => contracts.contracts[name]);
     const codes = await Promise.all(entries.map(({ address }) => request(url, "eth_getCode", [address, "latest"])));
-    const deployed = entries.every(({ code }, index) => toHex(codes[index] as Uint8Array) === code.toLowerCase());
+    const deployed = entries.every(({ code }, index) => toHex(codes[index]) === code.toLowerCase());
     const overrides = Object.fromEntries(entries.map(({ address, code }) => [address, { code }]));
     const transaction = { to: contracts.contracts.Renderer.address, data: toHex(call) };
     try {

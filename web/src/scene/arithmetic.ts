@@ -59,7 +59,7 @@ export function boundsOf(points: Float64Array): [Vector, Vector] {
 
 /** Return a row of three numbers. */
 export function rowOf(table: Float64Array, index: number): Vector {
-    return [table[3 * index] as number, table[3 * index + 1] as number, table[3 * index + 2] as number];
+    return [table[3 * index], table[3 * index + 1], table[3 * index + 2]];
 }
 
 /** Return a vector or quaternion of any length but zero as one of length 1. */

@@ -38,7 +38,7 @@ export const packTexture = remembered((texture: Texture, uvs: Float64Array): Uin
 
 /** Return the bytes of the record ALPHA of a texture that has an alpha, in whole words. */
 export const packAlpha = remembered((texture: Texture, alpha: Uint8Array): Uint8Array => {
-    const greys = Uint8Array.from({ length: 3 * alpha.length }, (_, at) => alpha[Math.floor(at / 3)] as number);
+    const greys = Uint8Array.from({ length: 3 * alpha.length }, (_, at) => alpha[Math.floor(at / 3)]);
     const image = packImage(texture, greys);
     const bytes = words(1 + image.length);
     bytes[0] = texture.cutoff;
@@ -108,7 +108,7 @@ function packImage({ width, height, filter, wrap }: Texture, pixels: Uint8Array)
     const numbers = new Map(palette.map((color, index) => [color, index]));
     texels.forEach((color, texel) => {
         const [place, at] = [begin + ((texel * bits) >> 3), 8 - bits - ((texel * bits) & 7)];
-        bytes[place] = (bytes[place] as number) | ((numbers.get(color) as number) << at);
+        bytes[place] = bytes[place] | ((numbers.get(color) as number) << at);
     });
     return bytes;
 }

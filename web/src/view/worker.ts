@@ -65,8 +65,8 @@ function halved(pixels: Uint8ClampedArray, width: number): Uint8ClampedArray<Arr
         for (let x = y; x < y + row; x += 8, to += 4) {
             for (let channel = 0; channel < 4; channel++) {
                 const at = x + channel;
-                const [a, b, c, d] = [pixels[at], pixels[at + 4], pixels[at + row], pixels[at + row + 4]] as number[];
-                result[to + channel] = ((a as number) + (b as number) + (c as number) + (d as number) + 2) >> 2;
+                const sum = pixels[at] + pixels[at + 4] + pixels[at + row] + pixels[at + row + 4];
+                result[to + channel] = (sum + 2) >> 2;
             }
         }
     }

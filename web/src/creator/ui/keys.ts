@@ -53,7 +53,7 @@ function idsOf(items: readonly Item[]): ReadonlySet<string> {
 }
 
 function look(app: App, number: number): void {
-    const { name } = LOOKS[number % LOOKS.length] as (typeof LOOKS)[number];
+    const { name } = LOOKS[number % LOOKS.length];
     app.change(applyLook(app.doc.value, name, app.selected.value), "Look");
 }
 

@@ -17,7 +17,7 @@ function add(): void {
 export function Objects({ app }: { app: App }) {
     const { objects } = app.calm.value;
     const selected = app.selected.value;
-    const one = selected.size === 1 ? ([...selected][0] as string) : null;
+    const one = selected.size === 1 ? [...selected][0] : null;
     const place = objects.findIndex(({ id }) => id === one);
     const choose = (id: string, more: boolean): void => app.select(id === one && !more ? null : id, more);
     const reorder = (by: number): void => app.change(reordered(app.doc.value, one as string, by), "Change the order");

@@ -177,7 +177,7 @@ function summary(app: App, doc: Document, name: Group): string {
     switch (name) {
         case "material": {
             const shadings = new Set(chosen(doc, app.selected.value).map(({ material }) => material.shading));
-            return shadings.size === 1 ? capital([...shadings][0] as string) : "Mixed";
+            return shadings.size === 1 ? capital([...shadings][0]) : "Mixed";
         }
         case "lights":
             return `${doc.lights.length}${doc.lights.some(({ shadow }) => shadow) ? ", shadow" : ""}`;

@@ -74,12 +74,12 @@ export async function planOf(session: Session, quoted: Quoted): Promise<Plan | n
     const own = [...(await Promise.all(parts)).flat(), add];
     const event = { address, abi: EDITIONS, eventName: "EditionAdded", args: { artist: account, scene } } as const;
     const [first, known] = await Promise.all([
-        priced(session, own[0]!, Number(own[0]!.gas)),
+        priced(session, own[0], Number(own[0].gas)),
         // nodes may not look back so far
         getContractEvents(client, { ...event, fromBlock: 0n }).catch(() => []),
     ]);
     const { fees, balance } = first;
-    const [usual, gas] = [withMargin(own[0]!.gas), first.call.gas];
+    const [usual, gas] = [withMargin(own[0].gas), first.call.gas];
     // some chains count gas otherwise; what comes later cannot be estimated yet, and is taken to be alike
     const calls = gas > usual ? own.map((call) => ({ ...call, gas: withMargin((call.gas * gas) / usual) })) : own;
     const most = calls.reduce((sum, { gas }) => sum + gas * fees.max, 0n);

@@ -45,8 +45,8 @@ export function stagesOf(host: Host, scene: Scene): Stage[] {
             withDots(sent, specified(sent, points)),
         ),
         stage("Vertex shader", `${say(inside.length)} points on the canvas`, withDots(sent, inside)),
-        stage("Primitive assembly", `${say(counts.triangles)} triangles left`, overNothing(host, wires!)),
-        stage("Rasterization", `${say(counts.litPixels)} pixels covered`, overNothing(host, shades!)),
+        stage("Primitive assembly", `${say(counts.triangles)} triangles left`, overNothing(host, wires)),
+        stage("Rasterization", `${say(counts.litPixels)} pixels covered`, overNothing(host, shades)),
         stage("Fragment shader", lightsOf(scene), overNothing(host, plain)),
         stage("Compositing", `${drawn.width} x ${drawn.height} pixels, ${say(drawn.gas)} gas`, drawn),
     ];
@@ -161,9 +161,9 @@ function filled(object: SceneObject): SceneObject {
 function overNothing(host: Host, scene: Scene): Picture {
     const [black, white] = ["#000000", "#ffffff"].map((background) => host.draw({ ...scene, background }).pixels);
     const picture = nothing(scene.width ?? 128, scene.height ?? 128);
-    for (let at = 0; at < black!.length; at += 4) {
-        const pixel = black!.subarray(at, at + 4);
-        if (pixel.every((channel, index) => channel === white![at + index])) picture.pixels.set(pixel, at);
+    for (let at = 0; at < black.length; at += 4) {
+        const pixel = black.subarray(at, at + 4);
+        if (pixel.every((channel, index) => channel === white[at + index])) picture.pixels.set(pixel, at);
     }
     return picture;
 }
