@@ -11,6 +11,7 @@ from ..errors import InputError
 from ..ethereum._encoding import checksum_address
 from ..image import FORMATS, check_output, one_of
 from ..library import chosen_items, items
+from ..scene._settings import ALL
 from ..tokens._icons import licence_of, scene_to_store
 from ..tokens._storage import SceneToStore, StoragePlan, plan_storage, read_back
 from ..tokens._storage import store as send
@@ -49,7 +50,8 @@ def store(
     terms = licence_of(source, licence)
     node.check()
     payer.check()
-    scene = scene_to_store(source, size, max_triangles)
+    # what is stored can be drawn at any size
+    scene = scene_to_store(source, size, max_triangles or ALL)
     wanted = SceneToStore(input, scene, position_bits)
     connection = node.connect()
     with LateBar("reading the chain"):

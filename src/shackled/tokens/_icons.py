@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 from functools import cache, partial
 from importlib.resources import files
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 from attrs import evolve
 
@@ -23,7 +23,6 @@ from ..ethereum._amounts import amount
 from ..ethereum._encoding import checksum_address
 from ..scene._files.link import Link
 from ..scene._scene import Scene
-from ..scene._settings import ALL
 from ..studio._storage import STUDIO
 from ._collection import Collection
 from ._contract import Contract
@@ -128,14 +127,13 @@ def token_scene(piece: Piece) -> Scene:
 
 
 def scene_to_store(
-    source: Path | Piece | Link, size: tuple[int, int] | None = None, max_triangles: int | None = None
+    source: Path | Piece | Link, size: tuple[int, int] | None = None, max_triangles: int | Literal["all"] | None = None
 ) -> Scene:
     """Return the scene that is stored of a piece, a mesh or a scene file. size, max_triangles: as in `load`."""
     # a token is drawn by nodes of all kinds, of which many allow a call too little gas for antialiased meshes
     antialias = False if is_model(source) else None
     thing = (token_scene(source) if size is None else source.make()) if isinstance(source, Piece) else source
-    # what is stored can be drawn at any size
-    return load(thing, size, max_triangles=max_triangles or ALL, antialias=antialias)
+    return load(thing, size, max_triangles=max_triangles, antialias=antialias)
 
 
 @cache
