@@ -1,11 +1,9 @@
 """Measure what pictures cost in gas: the snapshot of the tests, and the tables of `python -m benchmarks`."""
 
-from __future__ import annotations
-
 import argparse
 import json
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, NoReturn
@@ -61,11 +59,24 @@ def write_figures(path: Path, figures: Any, sort_keys: bool = False) -> None:
     path.write_text(json.dumps(figures, indent=1, sort_keys=sort_keys) + "\n", "utf-8")
 
 
-def publish(name: str, figures: dict[str, Any], text: str) -> int:
-    """Write the figures of a module of this folder to NAME.json, its text to the README; return the exit code."""
+def measured(heading: str, parts: Iterable[Callable[[], Section]]) -> tuple[str, dict[str, Any]]:
+    """Measure parts, print each, and return the whole text and the figures by the titles."""
+    written, data = [heading], {}
+    for part in parts:
+        section = part()
+        written.append(f"## {section.title}\n\n{section.text}\n")
+        print(written[-1], flush=True)
+        data[section.title] = section.data
+    return "\n".join(written), data
+
+
+def publish(name: str, figures: dict[str, Any], text: str, page: Path = README, mark: str | None = None) -> int:
+    """Print a text. Write the figures of a module of this folder to NAME.json, the text to a page under its mark, by
+    default the name of the module. Return the exit code.
+    """
     print(text)
     write_figures(FOLDER / f"{name}.json", figures)
-    return update({README: {name: text}.get}, f"python -m benchmarks.{name}")
+    return update({page: {mark or name: text}.get}, f"python -m benchmarks.{name}")
 
 
 def flip(right: ArrayLike, seen: ArrayLike) -> float:

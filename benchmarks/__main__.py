@@ -1,23 +1,16 @@
 """`python -m benchmarks`: print all tables and write them to results.md and results.json."""
 
-from __future__ import annotations
-
-from . import FOLDER, cost, run_main, stages, write_figures
+from . import FOLDER, cost, measured, run_main, stages, write_figures
 
 RESULTS, FIGURES = FOLDER / "results.md", FOLDER / "results.json"
 
 
 def main() -> int:
     """Make the tables."""
-    written = ["# Benchmarks\n\nMade by `python -m benchmarks`. Gas is exact: the same on every machine.\n"]
-    data = {}
-    for part in (cost.section, stages.section):
-        section = part()
-        written.append(f"## {section.title}\n\n{section.text}\n")
-        print(written[-1], flush=True)
-        data[section.title] = section.data
+    heading = "# Benchmarks\n\nMade by `python -m benchmarks`. Gas is exact: the same on every machine.\n"
+    text, data = measured(heading, (cost.section, stages.section))
     if all(data.values()) or not FIGURES.exists():
-        RESULTS.write_text("\n".join(written), "utf-8")
+        RESULTS.write_text(text, "utf-8")
         write_figures(FIGURES, data)
         print(f"written: {RESULTS.name}, {FIGURES.name}")
     else:

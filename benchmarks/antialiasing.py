@@ -5,15 +5,14 @@
 measures pictures with and without it, rewrites the table of docs/measurements.md, and prints it.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from statistics import fmean
 
 from attrs import evolve
 from tools.pages import ROOT, update
 
-from shackled import Scene, render
+from shackled import Scene
+from shackled.bench._measure import gas
 from shackled.datasets import pieces
 from shackled.datasets._pieces import require
 
@@ -32,9 +31,10 @@ def groups() -> dict[str, list[Scene]]:
         "Genesis 0 to 23": [require(f"genesis/{number}").make() for number in range(24)],
     }
     if shared.is_there():
-        found["15 objects of the cost table, flat"] = [shared.scene(name) for name in shared.objects()]
-        found["the same, smooth"] = [shared.smooth(shared.scene(name)) for name in shared.objects()]
-        found["the same, unlit"] = [shared.unlit(shared.scene(name)) for name in shared.objects()]
+        scenes, names = shared.table_scenes(), shared.objects()
+        found["15 objects of the cost table, flat"] = [scenes[name] for name in names]
+        found["the same, smooth"] = [scenes[name + shared.SMOOTH_SUFFIX] for name in names]
+        found["the same, unlit"] = [scenes[name + shared.UNLIT_SUFFIX] for name in names]
     return found
 
 
@@ -45,23 +45,20 @@ def table(scenes: dict[str, list[Scene]]) -> str:
         "|---|" + 7 * "---:|",
     ]
     for name, each in scenes.items():
-        plain, smoothed = (list(gas_of(each, flag)) for flag in (False, True))
-        doubled = list(gas_of([evolve(scene, width=2 * scene.width, height=2 * scene.height) for scene in each], False))
+        plain, smoothed = (gas_of(each, flag) for flag in (False, True))
+        doubled = gas_of([evolve(scene, width=2 * scene.width, height=2 * scene.height) for scene in each], False)
         ratios = [after / before for before, after in zip(plain, smoothed, strict=True)]
         lines.append(
             f"| {name} | {fmean(plain) / 1e6:.2f}M | {fmean(smoothed) / 1e6:.2f}M | {sum(smoothed) / sum(plain):.2f} | "
-            f"{min(ratios):.2f} | {max(ratios):.2f} | {sum(gas < TRANSACTION for gas in smoothed)} of {len(each)} | "
+            f"{min(ratios):.2f} | {max(ratios):.2f} | {sum(cost < TRANSACTION for cost in smoothed)} of {len(each)} | "
             f"{sum(doubled) / sum(plain):.2f} |"
         )
     return "\n".join(lines)
 
 
-def gas_of(scenes: Iterable[Scene], antialias: bool) -> Iterable[int]:
-    """Yield the gas of each picture."""
-    for scene in scenes:
-        gas = render(evolve(scene, antialias=antialias)).gas
-        assert gas is not None
-        yield gas
+def gas_of(scenes: Iterable[Scene], antialias: bool) -> list[int]:
+    """Return the gas of each picture."""
+    return [gas(evolve(scene, antialias=antialias)) for scene in scenes]
 
 
 def main() -> int:

@@ -1,14 +1,12 @@
 """Compare the cost of the original's scenes with the original and with the limits set for this renderer."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from dataclasses import dataclass
 from statistics import fmean, median
 
 import numpy as np
 from tools.tokens.launched import LIMIT, PRICE, Launched, icon_scene, launched, store_scene
-from tools.tokens.world import GAS, Contract
+from tools.tokens.world import Contract
 
 from shackled import ChainError, Scene
 from shackled.artifacts import artifact
@@ -223,8 +221,7 @@ def icon_row() -> Row:
 def genesis_uris() -> list[int]:
     """Return the execution gas of `GenesisMetadata.tokenURI` for each seed."""
     s = launched()
-    calls = (s.metadata.encode("tokenURI", (number, seed_of(number)))[1] for number in range(PIECES))
-    return [s.world.run(s.bob, s.metadata.address, data, 0, GAS, False, []).execution for data in calls]
+    return [s.metadata.gas_of("tokenURI", number, seed_of(number), sender=s.bob) for number in range(PIECES)]
 
 
 def icon_uris() -> dict[str, int]:

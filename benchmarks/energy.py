@@ -4,8 +4,6 @@ Under proof of stake a network draws the same power whether its blocks are full 
 thus a share: its part of the gas of a year, of the electricity of that year. A read call runs on one computer.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from math import floor, log10
@@ -59,14 +57,9 @@ CCRI_2022 = Network("CCRI 2022", 2_601_000, 870)
 CCAF_2023 = Network("CCAF 2023", 7_500_000, 2_800)
 
 
-def estimates(
-    transactions: Mapping[str, float],
-    calls: Mapping[str, float],
-    networks: tuple[Network, ...] = (CCRI_2022, CCAF_2023),
-    computer: Computer | None = None,
-) -> str:
+def estimates(transactions: Mapping[str, float], calls: Mapping[str, float]) -> str:
     """Return a table: for each transaction the share of each network by its gas, for each call that of one computer."""
-    computer = computer or Computer()
+    networks, computer = (CCRI_2022, CCAF_2023), Computer()
     rows = [
         [f"transaction: {name}", f"{gas:,.0f}", *(_cell(network, gas) for network in networks), ""]
         for name, gas in transactions.items()

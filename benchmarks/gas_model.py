@@ -7,18 +7,17 @@ tools/models.toml, which it downloads into build/models, and rewrites gas_model.
 benchmarks/README.md. A model that does not fit one picture, such as one with more than MOST triangles, is left out.
 """
 
-from __future__ import annotations
-
 import warnings
 from collections.abc import Iterable, Iterator
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from tools.models import packages
 
 from shackled import InputError, Scene, load
+from shackled.base.checks import Floats
 from shackled.bench._measure import gas
 from shackled.bench._report import table, wrapped
 from shackled.datasets.common import shapes
@@ -30,6 +29,7 @@ from . import publish, read_figures, run_main
 from .workload import workload_of
 
 FILE = Path(__file__).with_name("gas_model.json")
+recorded = partial(read_figures, FILE)
 #: Packages whose models are predicted: small ones.
 HELD_OUT = ("compas", "devjoni-stllib", "node-stl", "pymeshfix", "skeletor")
 #: Triangles of a predicted model at most: the largest mesh of the fit has fewer than half as many.
@@ -43,8 +43,6 @@ LOOKS: dict[str, LookOptions] = {
 }
 #: What is counted, as a table names it. Curved: with a normal of its own at each corner.
 COUNTS = ("a face", "a drawn one", "if curved", "a row", "if curved", "a tested pixel", "if curved")
-
-Array = NDArray[np.float64]
 
 
 def generated() -> Iterator[Mesh]:
@@ -85,7 +83,7 @@ def held_out(look: LookOptions) -> Iterator[tuple[str, Scene]]:
                 yield f"{package.name}/{Path(name).name}", scene
 
 
-def measured(scenes: Iterable[Scene]) -> tuple[Array, Array]:
+def measured(scenes: Iterable[Scene]) -> tuple[Floats, Floats]:
     """Return the counts of scenes behind a one, (n, 8), and their gas, (n,)."""
     rows, found = [], []
     for scene in scenes:
@@ -109,7 +107,7 @@ def curved(scene: Scene) -> tuple[float, float]:
     return float(part.mean()), float(area[part].sum() / area.sum())
 
 
-def fitted(counts: Array, found: Array) -> Array:
+def fitted(counts: Floats, found: Floats) -> Floats:
     """Return the coefficients whose errors, as shares of the gas, have the least squares."""
     # a count that is zero everywhere gets no gas
     scale = np.maximum(counts.max(axis=0), 1)
@@ -117,7 +115,7 @@ def fitted(counts: Array, found: Array) -> Array:
     return np.asarray(solution / scale)
 
 
-def errors(counts: Array, found: Array, coefficients: Array) -> Array:
+def errors(counts: Floats, found: Floats, coefficients: Floats) -> Floats:
     """Return the errors of predictions as shares of the gas; positive where too much is predicted."""
     return np.asarray(counts @ coefficients / found - 1)
 
@@ -151,11 +149,6 @@ def text(figures: dict[str, Any]) -> str:
         " rows and pixels is as of the area.\n\n"
         + table([*head, "median error of the fit", "of the prediction", "largest"], lines)
     )
-
-
-def recorded() -> dict[str, Any]:
-    """Return the figures of gas_model.json."""
-    return read_figures(FILE)
 
 
 def main() -> int:

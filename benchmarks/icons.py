@@ -6,12 +6,11 @@ measures everything, rewrites icons.json, the table of docs/datasets.md, and the
 antialiased: src/shackled/tokens/antialiased.json.
 """
 
-from __future__ import annotations
-
+from functools import partial
 from pathlib import Path
 
 from attrs import evolve
-from tools.pages import ROOT, update
+from tools.pages import ROOT
 from tools.tokens.launched import PRICE, launched, store_scene
 from tools.tokens.world import Refused
 
@@ -20,9 +19,10 @@ from shackled.ethereum._encoding import intrinsic_gas
 from shackled.scene._look import resize
 from shackled.tokens._icons import SCALE
 
-from . import read_figures, run_main, write_figures
+from . import publish, read_figures, run_main, write_figures
 
 FILE = Path(__file__).with_name("icons.json")
+recorded = partial(read_figures, FILE)
 PAGE = ROOT / "docs" / "datasets.md"
 LIST = ROOT / "src" / "shackled" / "tokens" / "antialiased.json"
 
@@ -69,11 +69,6 @@ def take() -> Figures:
     return figures
 
 
-def recorded() -> Figures:
-    """Return the figures of icons.json."""
-    return read_figures(FILE)
-
-
 def fitting(figures: Figures) -> list[str]:
     """Return the pieces whose tokens can be antialiased."""
     return sorted(f"icons/{name}" for name, each in figures.items() if each["antialiased fits"])
@@ -92,10 +87,8 @@ def table(figures: Figures) -> str:
 def main() -> int:
     """Measure, print and write the figures."""
     figures = take()
-    print(table(figures))
-    write_figures(FILE, figures)
     write_figures(LIST, fitting(figures))
-    return update({PAGE: {"icons": table(figures)}.get}, "python -m benchmarks.icons")
+    return publish("icons", figures, table(figures), PAGE)
 
 
 if __name__ == "__main__":

@@ -7,20 +7,18 @@ leaves one part of the look out; its FLIP, a perceptual difference, is compared 
 so much smaller that it needs the same gas. Rewrites look_quality.json and its table in benchmarks/README.md.
 """
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 from attrs import evolve
-from numpy.typing import NDArray
 from PIL import Image as PillowImage
 from tools.pages import ROOT
 
 from shackled import Rim, Scene, Tone, load, render
+from shackled.base.checks import Floats
 from shackled.bench._report import table, wrapped
 from shackled.scene import Hemisphere
 from shackled.scene._codec import render_call
@@ -34,14 +32,13 @@ from judge import render as in_float64
 from . import flip, publish, read_figures, run_main
 
 FILE = Path(__file__).with_name("look_quality.json")
+recorded = partial(read_figures, FILE)
 PIECES = ("teapot", "torus-knot", "icons/crown", "genesis/7")
 SIDE = 128
 #: Sides of the smaller canvases on which the whole look is drawn, the largest first.
 SIDES = (128, 120, 112, 104, 96, 80, 64, 48, 32)
 #: The truth has so many pixels along a side of a pixel, of four samples each.
 FINER = 4
-
-Pixels = NDArray[np.float64]
 
 
 def plain(piece: str) -> Scene:
@@ -78,14 +75,14 @@ LOOKS: dict[str, tuple[Callable[[str], Scene], dict[str, Callable[[Scene], Scene
 }
 
 
-def truth(scene: Scene) -> Pixels:
+def truth(scene: Scene) -> Floats:
     """Return the picture in float64, (H, W, 3), from 0 to 255."""
     large = evolve(scene, width=FINER * scene.width, height=FINER * scene.height)
     exact = in_float64(render_call(in_range(large))).exact
     return np.asarray(exact.reshape(scene.height, FINER, scene.width, FINER, 3).mean(axis=(1, 3)))
 
 
-def drawn(scene: Scene, right: Pixels) -> tuple[int, float]:
+def drawn(scene: Scene, right: Floats) -> tuple[int, float]:
     """Return the gas of a scene, and the FLIP of its picture, enlarged as browsers do."""
     image = render(scene)
     assert image.gas is not None
@@ -121,11 +118,6 @@ def text(figures: dict[str, dict[str, list[float]]]) -> str:
         f"Means of {', '.join(figures)}, {SIDE} x {SIDE} pixels. To save gas, leaving out a part loses less than a"
         f" smaller canvas for {' and '.join(dear) or 'no part'}.\n\n" + table(head, lines)
     )
-
-
-def recorded() -> dict[str, Any]:
-    """Return the figures of look_quality.json."""
-    return read_figures(FILE)
 
 
 def main() -> int:

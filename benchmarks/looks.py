@@ -6,10 +6,9 @@ measures everything, which takes about two minutes, rewrites looks.json and the 
 docs/parallel.md, and prints the first. Figures of meshes and scenes that are not there are kept.
 """
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import partial
 from math import isnan, nan
 from pathlib import Path
 from statistics import fmean
@@ -27,6 +26,7 @@ from . import antialiasing, cost, read_figures, run_main, shared, write_figures
 from .scenes import MORE_LIGHTS, staged_teapot
 
 FILE = Path(__file__).with_name("looks.json")
+recorded = partial(read_figures, FILE)
 PAGES = (ROOT / "docs" / "gas.md", ROOT / "docs" / "parallel.md")
 
 #: Of the meshes: those of the default look.
@@ -138,7 +138,7 @@ def ratios(groups: dict[str, list[Scene]]) -> Figures:
     figures: Figures = {}
     for name, group in (RATIOS | {"smooth": SMOOTH}).items():
         if group in groups:
-            plain, smoothed = (list(antialiasing.gas_of(groups[group], flag)) for flag in (False, True))
+            plain, smoothed = (antialiasing.gas_of(groups[group], flag) for flag in (False, True))
             figures[f"{name}, x"] = sum(smoothed) / sum(plain)
             if group == SMOOTH:
                 figures["smooth"] = fmean(smoothed)
@@ -155,11 +155,6 @@ def table_figures() -> Figures:
         "cube 512": gas(scenes[shared.LARGE_CUBE]),
         "dearest transaction": cost.largest_row().gas,
     }
-
-
-def recorded() -> Figures:
-    """Return the figures of looks.json."""
-    return read_figures(FILE)
 
 
 def table(figures: Figures) -> str:

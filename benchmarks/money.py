@@ -10,8 +10,6 @@ the gas of its execution there, and its share of a blob of mainnet: its bytes, c
 byte.
 """
 
-from __future__ import annotations
-
 import argparse
 import zlib
 from dataclasses import asdict, dataclass, fields

@@ -5,11 +5,10 @@
 measures everything, rewrites motion.json and the table of docs/motion.md, and prints it.
 """
 
-from __future__ import annotations
-
+from functools import partial
 from pathlib import Path
 
-from tools.pages import ROOT, update
+from tools.pages import ROOT
 
 from shackled import Scene
 from shackled.artifacts import artifact
@@ -20,9 +19,10 @@ from shackled.scene._look import resize
 from shackled.studio import store_scene
 from shackled.studio._storage import ANIMATE
 
-from . import read_figures, run_main, write_figures
+from . import publish, read_figures, run_main
 
 FILE = Path(__file__).with_name("motion.json")
+recorded = partial(read_figures, FILE)
 PAGE = ROOT / "docs" / "motion.md"
 
 #: Of the turntables: frames, sides in pixels, and the gas that most nodes give a call without being asked.
@@ -79,11 +79,6 @@ def take() -> Figures:
     }
 
 
-def recorded() -> Figures:
-    """Return the figures of motion.json."""
-    return read_figures(FILE)
-
-
 def fitting(figures: Figures) -> list[str]:
     """Return the icons whose turntable fits the limit."""
     ending = ": turntable: gas"
@@ -106,9 +101,7 @@ def table(figures: Figures) -> str:
 def main() -> int:
     """Measure, print and write the figures."""
     figures = take()
-    print(table(figures))
-    write_figures(FILE, figures)
-    return update({PAGE: lambda _: table(figures)}, "python -m benchmarks.motion")
+    return publish("motion", figures, table(figures), PAGE, "icons")
 
 
 if __name__ == "__main__":

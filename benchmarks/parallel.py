@@ -4,14 +4,10 @@ Written to parallel.md and parallel.json beside this file. Gas is exact; times a
 only their ratios are meaningful.
 """
 
-from __future__ import annotations
-
-import json
 import os
 import sys
 import time
 from contextlib import ExitStack
-from pathlib import Path
 from statistics import fmean
 
 from attrs import evolve
@@ -32,9 +28,8 @@ from shackled.parallel.places import Embedded, Place
 from shackled.scene._codec import Rectangle
 from shackled.scene._turning import full_turn
 
-from . import Section, run_main, shared
+from . import FOLDER, Section, measured, run_main, shared, write_figures
 
-FOLDER = Path(__file__).parent
 SIDES = (128, 256, 512, 1024)
 #: Tiles of a picture: how many across, how many down.
 GRIDS = ((1, 4), (1, 16), (1, 64), (2, 2), (4, 4), (8, 8))
@@ -161,15 +156,10 @@ def timed(frames: list[Scene], places: list[Backend]) -> float:
 
 def main() -> int:
     """Measure everything and write the files."""
-    written = ["# Tiles and places\n\nMade by `python -m benchmarks.parallel`.\n"]
-    data = {}
-    for part in (tiles, many_tiles, throughput):
-        section = part()
-        written.append(f"## {section.title}\n\n{section.text}\n")
-        print(written[-1], flush=True)
-        data[section.title] = section.data
-    (FOLDER / "parallel.md").write_text("\n".join(written), "utf-8")
-    (FOLDER / "parallel.json").write_text(json.dumps(data, indent=1) + "\n", "utf-8")
+    heading = "# Tiles and places\n\nMade by `python -m benchmarks.parallel`.\n"
+    text, data = measured(heading, (tiles, many_tiles, throughput))
+    (FOLDER / "parallel.md").write_text(text, "utf-8")
+    write_figures(FOLDER / "parallel.json", data)
     return 0
 
 

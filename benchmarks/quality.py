@@ -6,12 +6,11 @@ draws everything, which takes about three minutes, rewrites quality.json and the
 prints it. It needs OpenGL (`python3 tools/prepare.py opengl`). The figures of meshes that are not there are kept.
 """
 
-from __future__ import annotations
-
 import sys
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass, replace
+from functools import partial
 from itertools import count, islice, product
 from multiprocessing import get_context
 from pathlib import Path
@@ -23,6 +22,7 @@ from numpy.typing import NDArray
 from tools.pages import ROOT, update
 
 from shackled import Scene, load, render
+from shackled.base.checks import Flags, Floats, Ints
 from shackled.datasets import pieces
 
 from . import flip, read_figures, run_main, shared, write_figures
@@ -33,9 +33,8 @@ sys.path.insert(0, str(ROOT / "tests"))
 sys.path.insert(0, str(ROOT / "contracts"))
 from conformance.world import World, background, before_camera
 
-Array = NDArray[np.float64]
-
 FILE = Path(__file__).with_name("quality.json")
+recorded = partial(read_figures, FILE)
 SIDE = 128
 #: Samples of the truth along a side of a pixel: so many in each of so many pictures a side.
 WITHIN, PICTURES = 8, 4
@@ -57,9 +56,9 @@ class Truth:
     triangle and the background, in different colours. silhouettes: (H, W) whether these are edges with the background.
     """
 
-    pixels: Array
-    edges: NDArray[np.bool_]
-    silhouettes: NDArray[np.bool_]
+    pixels: Floats
+    edges: Flags
+    silhouettes: Flags
 
 
 def groups() -> dict[str, list[Scene]]:
@@ -90,9 +89,7 @@ def true_picture(scene: Scene) -> Truth:
     return Truth(shown(scene, total / (WITHIN * PICTURES) ** 2), edges, edges & (first < 0))
 
 
-def samples(
-    world: World, behind: Array, within: int, place: tuple[float, float] = (0.0, 0.0)
-) -> tuple[NDArray[np.int64], Array]:
+def samples(world: World, behind: Floats, within: int, place: tuple[float, float] = (0.0, 0.0)) -> tuple[Ints, Floats]:
     """Draw within x within samples of each pixel: their triangles, (H, n, W, n), and their colours, (H, n, W, n, 3)."""
     from conformance import opengl  # here, since it needs moderngl
 
@@ -108,7 +105,7 @@ def over_pixels(reduce: np.ufunc, values: NDArray[Any]) -> NDArray[Any]:
     return reduced
 
 
-def judged_pictures(scene: Scene) -> Iterator[Array]:
+def judged_pictures(scene: Scene) -> Iterator[Floats]:
     """Yield the pictures of JUDGED, (H, W, 3) each, in whole levels."""
     from conformance import opengl
 
@@ -120,12 +117,12 @@ def judged_pictures(scene: Scene) -> Iterator[Array]:
     yield np.rint(shown(scene, over_pixels(np.add, samples(world, behind, 4)[1]) / 16))
 
 
-def shown(scene: Scene, pixels: Array) -> Array:
+def shown(scene: Scene, pixels: Floats) -> Floats:
     """Return pixels as the scene shows them, inverted or not."""
     return 255 - pixels if scene.invert else pixels
 
 
-def judge(scene: Scene) -> tuple[dict[str, Array], list[float]]:
+def judge(scene: Scene) -> tuple[dict[str, Floats], list[float]]:
     """Return the errors of KINDS, (n, k) each for the k pictures of JUDGED, and the FLIP of each picture."""
     truth = true_picture(scene)
     pictures = list(judged_pictures(scene))
@@ -135,7 +132,7 @@ def judge(scene: Scene) -> tuple[dict[str, Array], list[float]]:
     return {"edges": errors[truth.edges], "silhouettes": errors[truth.silhouettes]}, flips
 
 
-def measure(results: list[tuple[dict[str, Array], list[float]]]) -> Figures:
+def measure(results: list[tuple[dict[str, Floats], list[float]]]) -> Figures:
     """Return the means of a group, of which `judge` gave these results."""
     errors = {kind: np.concatenate([each[kind] for each, _ in results]) for kind in KINDS}
     flips = np.mean([each for _, each in results], axis=0)
@@ -144,11 +141,6 @@ def measure(results: list[tuple[dict[str, Array], list[float]]]) -> Figures:
         **{kind: dict(zip(JUDGED, each.mean(axis=0).round(2).tolist(), strict=True)) for kind, each in errors.items()},
         "FLIP": dict(zip(JUDGED, flips.round(4).tolist(), strict=True)),
     }
-
-
-def recorded() -> dict[str, Figures]:
-    """Return the figures of quality.json."""
-    return read_figures(FILE)
 
 
 def table(figures: dict[str, Figures]) -> str:

@@ -7,9 +7,8 @@ which draws meshes of them, and rewrites ray_marcher.json and its table in bench
 contracts/.
 """
 
-from __future__ import annotations
-
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -31,6 +30,7 @@ from . import flip, publish, read_figures, run_main
 
 CONTRACT = Path(__file__).with_name("RayMarcher.sol")
 FILE = Path(__file__).with_name("ray_marcher.json")
+recorded = partial(read_figures, FILE)
 #: 1 in the numbers of the contract.
 ONE = 1 << 24
 SIDES = (64, 128)
@@ -126,11 +126,6 @@ def measure(shape: Shape, side: int) -> dict[str, Any]:
         "FLIP": round(flip(marched, drawn.pixels), 4),
         "mean error": round(float(np.abs(marched.astype(float) - drawn.pixels).mean()), 2),
     }
-
-
-def recorded() -> dict[str, Any]:
-    """Return the figures of ray_marcher.json."""
-    return read_figures(FILE)
 
 
 def text(figures: dict[str, Any]) -> str:

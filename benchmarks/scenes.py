@@ -1,7 +1,5 @@
 """Make scenes that need no file."""
 
-from __future__ import annotations
-
 from typing import Unpack
 
 from shackled import Camera, Light, Material, Object, Scene

@@ -6,8 +6,6 @@
 Seed number N is keccak256("random-N").
 """
 
-from __future__ import annotations
-
 import argparse
 from collections.abc import Sequence
 from statistics import fmean, median
@@ -15,7 +13,6 @@ from statistics import fmean, median
 from eth_utils.crypto import keccak
 from tools.pages import ROOT, update
 from tools.tokens.launched import launched
-from tools.tokens.world import GAS
 
 from . import run_main
 
@@ -28,11 +25,8 @@ LIMIT = 10_000_000
 def uris(count: int) -> list[int]:
     """Return the execution gas of `GenesisMetadata.tokenURI` for random seeds."""
     s = launched()
-    gas = []
-    for number in range(count):
-        _, data = s.metadata.encode("tokenURI", (number, keccak(text=f"random-{number}")))
-        gas.append(s.world.run(s.bob, s.metadata.address, data, 0, GAS, False, []).execution)
-    return gas
+    seeds = (keccak(text=f"random-{number}") for number in range(count))
+    return [s.metadata.gas_of("tokenURI", number, seed, sender=s.bob) for number, seed in enumerate(seeds)]
 
 
 def table(gas: list[int]) -> str:

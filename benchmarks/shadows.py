@@ -5,14 +5,13 @@
 measures pictures on a ground, without and with shadows, rewrites the table of docs/light.md, and prints it.
 """
 
-from __future__ import annotations
-
 from statistics import fmean
 
 from attrs import evolve
 from tools.pages import ROOT, update
 
-from shackled import Camera, Ground, Light, Material, Object, Scene, load, render
+from shackled import Camera, Ground, Light, Material, Object, Scene, load
+from shackled.bench._measure import gas
 from shackled.datasets import pieces
 from shackled.datasets._pieces import require
 from shackled.datasets.common.shapes import sphere
@@ -64,9 +63,7 @@ def table(scenes: dict[str, list[Scene]]) -> str:
 def gas_of(scene: Scene, shadow: bool) -> int:
     """Return the gas of a scene on a ground, of which the first light casts shadows or not."""
     first, *others = scene.lights
-    gas = render(evolve(scene, lights=[evolve(first, shadow=shadow), *others], ground=Ground("gray"))).gas
-    assert gas is not None
-    return gas
+    return gas(evolve(scene, lights=[evolve(first, shadow=shadow), *others], ground=Ground("gray")))
 
 
 def main() -> int:

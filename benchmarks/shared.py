@@ -6,9 +6,9 @@ cubes and a square, as JSON files in the format of the original. SHACKLED_SHARED
 missing.
 """
 
-from __future__ import annotations
-
 import os
+from collections.abc import Callable
+from contextlib import suppress
 from functools import cache
 from pathlib import Path
 
@@ -59,29 +59,10 @@ def genesis() -> list[str]:
     return [f"genesis_{i:03}" for i in range(24)]
 
 
-def unlit(of: Scene) -> Scene:
-    """Make the materials unlit."""
-    return _with(of, [UNLIT] * len(of.objects))
-
-
-def smooth(of: Scene) -> Scene:
-    """Use smooth normals, one point light and the glossy material."""
-    return evolve(_with(of, [evolve(GLOSSY, shading="smooth")] * len(of.objects)), lights=[LAMP])
-
-
-def smooth_own(of: Scene) -> Scene:
-    """Use smooth normals and one point light, with the scene's own coefficients."""
-    return evolve(_with(of, [evolve(o.material, shading="smooth") for o in of.objects]), lights=[LAMP])
-
-
-def frontal(of: Scene) -> Scene:
-    """Use a point light in front and the glossy material."""
-    return evolve(_with(of, [GLOSSY] * len(of.objects)), lights=[FRONTAL_LAMP])
-
-
-def _with(of: Scene, materials: list[Material]) -> Scene:
-    pairs = zip(of.objects, materials, strict=True)
-    return evolve(of, objects=[evolve(o, material=material) for o, material in pairs])
+def _with(of: Scene, change: Callable[[Material], Material], *lights: Light) -> Scene:
+    """Return a scene with other materials, and with these lights if there are any."""
+    objects = [evolve(each, material=change(each.material)) for each in of.objects]
+    return evolve(of, objects=objects, lights=lights or of.lights)
 
 
 @cache
@@ -91,13 +72,14 @@ def table_scenes() -> dict[str, Scene]:
         return {}
     scenes = {}
     for name in objects():
-        scenes[name] = scene(name)
-        scenes[name + UNLIT_SUFFIX] = unlit(scene(name))
-        scenes[name + SMOOTH_SUFFIX] = smooth(scene(name))
-        scenes[name + OWN_SUFFIX] = smooth_own(scene(name))
+        plain = scenes[name] = scene(name)
+        scenes[name + UNLIT_SUFFIX] = _with(plain, lambda _: UNLIT)
+        # smooth normals and a point light, with the glossy material or the coefficients of the scene
+        scenes[name + SMOOTH_SUFFIX] = _with(plain, lambda _: evolve(GLOSSY, shading="smooth"), LAMP)
+        scenes[name + OWN_SUFFIX] = _with(plain, lambda own: evolve(own, shading="smooth"), LAMP)
     for name in (*genesis(), CUBE, LARGE_CUBE):
         scenes[name] = scene(name)
-    scenes[QUAD + LAMP_SUFFIX] = frontal(scene(QUAD))
+    scenes[QUAD + LAMP_SUFFIX] = _with(scene(QUAD), lambda _: GLOSSY, FRONTAL_LAMP)
     return scenes
 
 
@@ -105,8 +87,6 @@ def all_scenes() -> dict[str, Scene]:
     """Return all scenes of the folder that can be loaded; some are invalid on purpose."""
     scenes = {}
     for path in sorted(FOLDER.glob("*.json")):
-        try:
+        with suppress(InputError):
             scenes[path.stem] = scene(path.stem)
-        except InputError:
-            continue
     return scenes

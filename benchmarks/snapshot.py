@@ -5,8 +5,7 @@
 measures everything and rewrites gas.json; what changed is printed. The figures of scenes that are not there are kept.
 """
 
-from __future__ import annotations
-
+from functools import partial
 from pathlib import Path
 
 from attrs import evolve
@@ -26,6 +25,7 @@ from .original.documents import call_data, document, mesh_keys
 from .scenes import LAMP, cubes, empty, room, staged_teapot
 
 FILE = Path(__file__).with_name("gas.json")
+recorded = partial(read_figures, FILE)
 
 Figures = dict[str, int]
 Snapshot = dict[str, Figures]
@@ -122,11 +122,6 @@ def take() -> Snapshot:
     if shared.is_there():
         snapshot["scenes of the cost table"] = shared_figures()
     return snapshot
-
-
-def recorded() -> Snapshot:
-    """Return the figures of gas.json."""
-    return read_figures(FILE)
 
 
 def changes(old: Snapshot, new: Snapshot) -> tuple[list[str], list[str]]:

@@ -4,14 +4,11 @@ python -m benchmarks.story            writes between the marks <!-- begin NAME -
 python -m benchmarks.story --check    writes nothing; fails if they are not up to date
 """
 
-from __future__ import annotations
-
 import argparse
 import csv
-from pathlib import Path
 from statistics import fmean
 
-from tools.pages import update
+from tools.pages import DOCS, ROOT, update
 
 from shackled.artifacts import RENDERER
 from shackled.bench._original import DEPLOYMENT_GAS, original, original_gas
@@ -21,12 +18,11 @@ from shackled.bench.scenes import cube
 from shackled.ethereum._encoding import intrinsic_gas
 from shackled.scene import encode
 
-from . import README, energy, run_main
+from . import FOLDER, README, energy, run_main
 from .original.recipe import SOURCES, digests
 
-ROOT = Path(__file__).resolve().parent.parent
-RESULTS = ROOT / "benchmarks" / "results"
-ESTIMATES = ROOT / "docs" / "measurements.md"
+RESULTS = FOLDER / "results"
+ESTIMATES = DOCS / "measurements.md"
 
 #: The models in the first row of the cost table.
 HEADLINE = tuple(f"obj_{name}_cull" for name in (*SOURCES, "armadillo", "beast", "benchy", "fertility", "max-planck"))

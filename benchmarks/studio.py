@@ -5,8 +5,7 @@
 measures everything, rewrites studio.json and the tables of docs/studio.md, and prints what changed.
 """
 
-from __future__ import annotations
-
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -32,6 +31,7 @@ from . import read_figures, run_main, write_figures
 from .snapshot import changes
 
 FILE = Path(__file__).with_name("studio.json")
+recorded = partial(read_figures, FILE)
 PAGE = ROOT / "docs" / "studio.md"
 
 Figures = dict[str, int]
@@ -128,11 +128,6 @@ def take() -> Figures:
     """Measure all figures."""
     keeper = Keeper()
     return mesh_figures(keeper) | png_figures(keeper)
-
-
-def recorded() -> Figures:
-    """Return the figures of studio.json."""
-    return read_figures(FILE)
 
 
 def meshes(figures: Figures) -> str:

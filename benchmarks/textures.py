@@ -4,8 +4,6 @@ python -m benchmarks.textures                measures, and rewrites the tables o
 python -m benchmarks.textures --models DIR   fetches BoxTextured and Duck, and draws them into a folder
 """
 
-from __future__ import annotations
-
 import argparse
 from pathlib import Path
 
@@ -14,6 +12,7 @@ from attrs import evolve
 from tools.pages import ROOT, update
 
 from shackled import Camera, Light, Material, Mesh, Object, Scene, Texture, Tone, load, render
+from shackled.bench._measure import cost, gas
 from shackled.chain import open_chain
 from shackled.scene._fields import FILTERS
 from shackled.scene._packed import pack_texture
@@ -50,24 +49,16 @@ def square(texture: Texture | None) -> Scene:
     return Scene([thing], Camera((0, 0, 2.6)), [Light("directional", (1, 2, 3))], width=128, height=128, antialias=True)
 
 
-def gas_of(scene: Scene) -> int:
-    """Return the gas of a picture."""
-    gas = render(scene).gas
-    assert gas is not None
-    return gas
-
-
 def per_pixel() -> str:
     """Return the gas that a textured pixel takes as a table in Markdown."""
-    plain = render(square(None))
-    pixels, base = plain.covered_pixels, gas_of(square(None))
-    assert pixels is not None
+    plain = cost(square(None))
+    pixels = plain.lit_pixels
     lines = ["| gas for each pixel | nearest | bilinear |", "|---|---:|---:|"]
-    lines.append(f"| without a texture, antialiased | {base // pixels:,} | |")
-    with_effects = gas_of(evolve(square(None), tone=Tone()))
+    lines.append(f"| without a texture, antialiased | {plain.gas // pixels:,} | |")
+    with_effects = gas(evolve(square(None), tone=Tone()))
     lines.append(f"| without a texture, by the EffectsEngine | {with_effects // pixels:,} | |")
     for colors, title in FORMATS.items():
-        values = [gas_of(square(Texture(image(64, colors), filter))) // pixels for filter in FILTERS]
+        values = [gas(square(Texture(image(64, colors), filter))) // pixels for filter in FILTERS]
         lines.append(f"| {title} | {' | '.join(f'{value:,}' for value in values)} |")
     return "\n".join(lines)
 
@@ -80,9 +71,9 @@ def stored() -> str:
     lines = ["| texture | bytes | gas to store it with a scene |", "|---|---:|---:|"]
     for side, colors in ((32, 16), (64, 16), (64, 256), (128, 256), (256, 256), (256, 5000)):
         texture = Texture(image(side, colors), "nearest")
-        gas = sum(each.gas for each in store_scene(square(texture), studio)[1:]) - without
+        more = sum(each.gas for each in store_scene(square(texture), studio)[1:]) - without
         size = len(pack_texture(texture, np.array(UVS, dtype=np.float64)))
-        lines.append(f"| {side} x {side}, {FORMATS[colors]} | {size:,} | {gas:,} |")
+        lines.append(f"| {side} x {side}, {FORMATS[colors]} | {size:,} | {more:,} |")
     return "\n".join(lines)
 
 

@@ -5,22 +5,21 @@
 measures everything, rewrites tokens.json and the table of docs/tokens.md, and prints it.
 """
 
-from __future__ import annotations
-
 import statistics
+from functools import partial
 from pathlib import Path
 
-from tools.pages import update
+from tools.pages import ROOT
 from tools.tokens.launched import ALLOW_LIST, ICONS, LIMIT, PRICE, Launched, icon_scene, launched, store_scene
 from tools.tokens.merkle import proof_of, root_of
 from tools.tokens.world import GAS, ZERO, account, keccak
 
 from shackled.datasets.genesis import seed_of
 
-from . import read_figures, run_main, write_figures
+from . import publish, read_figures, run_main
 
-ROOT = Path(__file__).resolve().parent.parent
 FILE = Path(__file__).with_name("tokens.json")
+recorded = partial(read_figures, FILE)
 PAGE = ROOT / "docs" / "tokens.md"
 
 #: Gas of the contracts of 2021, as measured on them.
@@ -141,11 +140,6 @@ def token_uris(s: Launched, seeds: int) -> Figures:
     return figures
 
 
-def recorded() -> Figures:
-    """Return the figures of tokens.json."""
-    return read_figures(FILE)
-
-
 def table(figures: Figures) -> str:
     """Return the figures as a table in Markdown."""
     lines = ["| what | gas | original |", "|---|---:|---:|"]
@@ -157,9 +151,7 @@ def table(figures: Figures) -> str:
 def main() -> int:
     """Measure, print and write the figures."""
     figures = take()
-    print(table(figures))
-    write_figures(FILE, figures)
-    return update({PAGE: lambda _: table(figures)}, "python -m benchmarks.tokens")
+    return publish("tokens", figures, table(figures), PAGE, "gas")
 
 
 if __name__ == "__main__":

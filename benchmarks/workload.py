@@ -1,13 +1,11 @@
 """Count the work of a scene: triangles and covered pixels by the contract, their rows and pixels in float64."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
 from shackled import Scene
+from shackled.base.checks import Floats
 from shackled.chain import open_chain
 from shackled.scene._in_range import in_range
 from shackled.stages import project
@@ -49,7 +47,7 @@ def workload_of(scene: Scene) -> Workload:
     )
 
 
-def _triangles(scene: Scene) -> list[NDArray[np.float64]]:
+def _triangles(scene: Scene) -> list[Floats]:
     """Return the triangles that are drawn, (3, 2) in pixels, the topmost corner first, the lowest last."""
     found = []
     for o in scene.objects:
@@ -62,7 +60,7 @@ def _triangles(scene: Scene) -> list[NDArray[np.float64]]:
     return found
 
 
-def _covered(corners: NDArray[np.float64], rows: NDArray[np.float64], width: int) -> int:
+def _covered(corners: Floats, rows: Floats, width: int) -> int:
     """Return how many centres of pixels a triangle covers on these rows of centres."""
     top, _, low = corners
     long = np.interp(rows, [top[1], low[1]], [top[0], low[0]])

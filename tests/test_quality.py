@@ -9,6 +9,7 @@ from benchmarks import antialiasing, quality
 from conformance import opengl
 from pictures import on_pixel_grid, pixel_grid_camera, unlit_scene
 from shackled import Mesh, Scene
+from shackled.base.checks import Floats
 
 SIDE = 16
 #: Left, top, right and bottom border in pixels.
@@ -26,7 +27,7 @@ def square() -> Scene:
     return unlit_scene(Mesh(corners, [(0, 1, 2), (0, 2, 3)], "white"), pixel_grid_camera(SIDE), SIDE)
 
 
-def area() -> quality.Array:
+def area() -> Floats:
     """(H, W): how much of each pixel the square covers."""
     left, top, right, bottom = BORDERS
     across, down = (

@@ -9,8 +9,6 @@ so where it can only compare hashes: where that compiler is not installed, or no
 cannot be downloaded.
 """
 
-from __future__ import annotations
-
 import argparse
 import hashlib
 import json
@@ -89,20 +87,8 @@ def build(sources: Path = SOURCES) -> bytes:
         # cargo would warn that it cannot use the job server of make
         "MAKEFLAGS": "",
     }
-    command = [
-        CARGO,
-        "rustc",
-        "--release",
-        "--locked",
-        "--quiet",
-        "-Z",
-        "build-std=std,panic_abort",
-        "--target",
-        TARGET,
-        "--",
-        *OWN_FLAGS,
-    ]
-    subprocess.run(command, cwd=sources, env=environment, check=True)
+    options = ["--release", "--locked", "--quiet", "-Z", "build-std=std,panic_abort", "--target", TARGET]
+    subprocess.run([CARGO, "rustc", *options, "--", *OWN_FLAGS], cwd=sources, env=environment, check=True)
     return (TARGET_FOLDER / TARGET / "release" / "shackled_evm.wasm").read_bytes()
 
 

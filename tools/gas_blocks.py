@@ -8,18 +8,18 @@ For a scene (a file or the name of a dataset piece) the call is `Renderer.render
 unpacked from a word at each use, and long sequences of DUP and SWAP, mean that the function has too many variables.
 """
 
-from __future__ import annotations
-
 import argparse
 import sys
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Any
 
 from shackled import load
 from shackled.artifacts import artifact
 from shackled.errors import ShackledError
+from shackled.ethereum._encoding import instructions
 from shackled.gas import render_call
 from shackled.gas._source_map import source_map
 from shackled.gas._trace import CallFrame, trace
@@ -86,16 +86,13 @@ def _mnemonic(opcode: Any, op: int) -> str:
 def _split(code: bytes) -> list[list[tuple[int, int, bytes]]]:
     """Return position, opcode and pushed bytes of each instruction, by blocks."""
     found: list[list[tuple[int, int, bytes]]] = [[]]
-    at = 0
-    while at < len(code):
+    for at, end in pairwise([*instructions(code), len(code)]):
         op = code[at]
-        size = op - 0x5F if 0x60 <= op <= 0x7F else 0
         if op == JUMPDEST and found[-1]:
             found.append([])
-        found[-1].append((at, op, code[at + 1 : at + 1 + size]))
+        found[-1].append((at, op, code[at + 1 : end]))
         if op in ENDS:
             found.append([])
-        at += 1 + size
     return [block for block in found if block]
 
 

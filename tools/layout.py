@@ -5,15 +5,13 @@ The compiler takes no expressions in assembly, so every address, shift and mask 
 are computed, so that one line of the table adds a register, and the contracts and the package cannot differ.
 """
 
-from __future__ import annotations
-
 import json
 import re
 import textwrap
 import tomllib
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
-from itertools import chain, pairwise
+from itertools import chain, count, pairwise
 from pathlib import Path
 from typing import Any
 
@@ -108,13 +106,7 @@ def registers(table: dict[str, Any]) -> dict[str, list[Section]]:
         constants: list[Constant] = []
         for names, words, text in rows_of_registers(part):
             size = WORD * words
-
-            def places(first: int = address, step: int = size) -> Iterator[int]:
-                while True:
-                    yield first
-                    first += step
-
-            found = tuple(named(names, text, places()))
+            found = tuple(named(names, text, count(address, size)))
             address += size * len(found)
             constants += found
         if name := part.get("block"):

@@ -4,8 +4,6 @@ The table has the addresses at which the Studio keeps the items, which are made 
 Studio: run it after tools/build_contracts.py whenever the Studio has changed, then compile the group "library".
 """
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from shackled.library import Item, items
@@ -44,10 +42,10 @@ def row(item: Item) -> bytes:
     )
 
 
-def source() -> str:
-    """Return the source with the table of all items."""
+def files() -> dict[Path, str]:
+    """Return the source with the table of all items, by its path."""
     rows = "".join(_literal(row(item).hex(), item.name) for item in items())
-    return f"""// SPDX-License-Identifier: MIT
+    source = f"""// SPDX-License-Identifier: MIT
 pragma solidity 0.8.37;
 
 // Written by tools/library.py.
@@ -63,13 +61,9 @@ library ItemTable {{
     }}
 }}
 """
+    return {TABLE: source}
 
 
 def _literal(digits: str, name: str) -> str:
     lines = [digits[at : at + WIDTH] for at in range(0, len(digits), WIDTH)]
     return f"            // {name}\n" + "".join(f'            hex"{line}"\n' for line in lines)
-
-
-def files() -> dict[Path, str]:
-    """Return the text of the file, by its path."""
-    return {TABLE: source()}

@@ -2,8 +2,6 @@
 chains, and bounds of what transactions cost.
 """
 
-from __future__ import annotations
-
 import json
 from math import isfinite
 from pathlib import Path
@@ -72,8 +70,8 @@ def look(preset: Preset) -> dict[str, Any]:
     }
 
 
-def text() -> str:
-    """Return the file."""
+def files() -> dict[Path, str]:
+    """Return the text of the file, by its path."""
     names = ("name", "gas", "kind", "place", "source", "date", "remark")
     known = [{name: getattr(each, name) for name in names} for each in limits()]
     of_chains = ("number", "name", "currency", "explorer", "node")
@@ -82,8 +80,7 @@ def text() -> str:
     for table, rows in zip(TYPES, (settings(), [look(each) for each in PRESETS], known, chains), strict=True):
         lines = "".join(f"    {json.dumps(row, ensure_ascii=False, default=str)},\n" for row in rows)
         made.append(f"\n// prettier-ignore\nexport const {table}: readonly {TYPES[table]}[] = [\n{lines}];\n")
-    made.append(bounds())
-    return "".join(made)
+    return {FILE: "".join([*made, bounds()])}
 
 
 def bounds() -> str:
@@ -102,8 +99,3 @@ export const USUAL_GAS = {{ {gas} }} as const;
 
 def _hex(color: Color) -> str:
     return "#" + bytes(color).hex()
-
-
-def files() -> dict[Path, str]:
-    """Return the text of the file, by its path."""
-    return {FILE: text()}

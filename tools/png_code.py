@@ -6,8 +6,6 @@ pixel is written as its three bytes, and a match that repeats them until another
 bits, so that no table is needed for them; one code, fitted to pictures of this renderer, serves all.
 """
 
-from __future__ import annotations
-
 import struct
 import zlib
 from functools import cache
@@ -44,7 +42,24 @@ library PngCode {{
         return
 {tables};
     }}
+{block}}}
 
+/// @notice The Huffman code of PNG files with alpha. Pixels have four bytes.
+library AlphaCode {{
+    /// @notice The code of a zero pixel, 36 bits. The bytes of a pixel, spread 9 bits apart, are added to it.
+    uint256 internal constant PIXEL = {alpha_pixel};
+
+    /// @notice Returns, for each number of pixels from 1 to 64, the code of the match that repeats one that many times
+    /// (19 bits), and its size in bits (5 bits).
+    function tables() internal pure returns (bytes memory) {{
+        return
+{alpha_tables};
+    }}
+{alpha_block}}}
+"""
+
+#: What both have of a block.
+BLOCK_CODE = """
     /// @notice Returns the header of the block, which defines the code, without the last bits, which fill no byte.
     function header() internal pure returns (bytes memory) {{
         return
@@ -60,36 +75,6 @@ library PngCode {{
     function end() internal pure returns (uint256, uint256) {{
         return ({end}, {end_size});
     }}
-}}
-
-/// @notice The Huffman code of PNG files with alpha. Pixels have four bytes.
-library AlphaCode {{
-    /// @notice The code of a zero pixel, 36 bits. The bytes of a pixel, spread 9 bits apart, are added to it.
-    uint256 internal constant PIXEL = {alpha_pixel};
-
-    /// @notice Returns, for each number of pixels from 1 to 64, the code of the match that repeats one that many times
-    /// (19 bits), and its size in bits (5 bits).
-    function tables() internal pure returns (bytes memory) {{
-        return
-{alpha_tables};
-    }}
-
-    /// @notice Returns the header of the block, which defines the code, without the last bits, which fill no byte.
-    function header() internal pure returns (bytes memory) {{
-        return
-{alpha_header};
-    }}
-
-    /// @notice Returns the last bits of the header, and their number.
-    function headerRest() internal pure returns (uint256, uint256) {{
-        return ({alpha_rest}, {alpha_rest_size});
-    }}
-
-    /// @notice Returns the end of the block: its bits, and their number.
-    function end() internal pure returns (uint256, uint256) {{
-        return ({alpha_end}, {alpha_end_size});
-    }}
-}}
 """
 
 #: Bits of the code of each byte.
@@ -283,46 +268,46 @@ def _number(value: int, bits: int) -> str:
     return f"{value:0{bits}b}"[::-1]
 
 
-def write() -> str:
-    """Return the text of the file."""
-    matches = [short_match(length, PIXEL) for length in range(3, 261)]
+def files() -> dict[Path, str]:
+    """Return the text of the file, by its path."""
     longest, zeros = (short_match(LONGEST, distance) for distance in (PIXEL, BYTE))
     others = {int(short_match(n, PIXEL), 2) ^ int(short_match(n, BYTE), 2) for n in (259, 260)}
-    header = code_header()
-    whole = len(header) // 8 * 8
     alpha = canonical(ALPHA_LENGTHS)
-    alpha_matches = [_match(alpha, 4 * pixels, PIXEL) for pixels in range(1, 65)]
     # the distances 1 and 4 have a bit each
     alpha_header = _header(ALPHA_LENGTHS, [1, 0, 0, 1])
-    alpha_whole = len(alpha_header) // 8 * 8
-    return FILE.format(
-        tables=_literal("".join(f"{int(code, 2) << 5 | len(code):06x}" for code in matches)),
-        header=_literal(f"{int(header[:whole], 2):0{whole // 4}x}"),
+    text = FILE.format(
+        tables=_table([short_match(length, PIXEL) for length in range(3, 261)]),
+        block=_block(code_header(), codes()[END]),
         literal=int(literal(0), 2),
         literals=int(3 * literal(0), 2),
         longest_size=len(longest),
         longest=f"0x{int(32 * longest, 2):064x}",
         zeros=int(zeros, 2),
         others=hex(others.pop()),
+        alpha_pixel=int(4 * alpha[0], 2),
+        alpha_tables=_table([_match(alpha, 4 * pixels, PIXEL) for pixels in range(1, 65)]),
+        alpha_block=_block(alpha_header, alpha[END]),
+    )
+    return {TARGET: text}
+
+
+def _table(matches: list[str]) -> str:
+    """Return codes with their sizes."""
+    return _literal("".join(f"{int(code, 2) << 5 | len(code):06x}" for code in matches))
+
+
+def _block(header: str, end: str) -> str:
+    """Return the functions of the beginning and the end of a block."""
+    whole = len(header) // 8 * 8
+    return BLOCK_CODE.format(
+        header=_literal(f"{int(header[:whole], 2):0{whole // 4}x}"),
         rest=int(header[whole:] or "0", 2),
         rest_size=len(header) - whole,
-        end=int(codes()[END], 2),
-        end_size=len(codes()[END]),
-        alpha_pixel=int(4 * alpha[0], 2),
-        alpha_tables=_literal("".join(f"{int(code, 2) << 5 | len(code):06x}" for code in alpha_matches)),
-        alpha_header=_literal(f"{int(alpha_header[:alpha_whole], 2):0{alpha_whole // 4}x}"),
-        alpha_rest=int(alpha_header[alpha_whole:] or "0", 2),
-        alpha_rest_size=len(alpha_header) - alpha_whole,
-        alpha_end=int(alpha[END], 2),
-        alpha_end_size=len(alpha[END]),
+        end=int(end, 2),
+        end_size=len(end),
     )
 
 
 def _literal(digits: str) -> str:
     lines = [digits[at : at + 120] for at in range(0, len(digits), 120)]
     return "\n".join(f'            hex"{line}"' for line in lines)
-
-
-def files() -> dict[Path, str]:
-    """Return the text of the file, by its path."""
-    return {TARGET: write()}

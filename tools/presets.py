@@ -1,7 +1,5 @@
 """Make contracts/src/building/Presets.sol: the table of src/shackled/scene/presets.toml, for contracts."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 from shackled.base.checks import Color
@@ -58,11 +56,6 @@ def hexadecimal(color: Color) -> str:
     return "0x{:02x}{:02x}{:02x}".format(*color)
 
 
-def source() -> str:
-    """Return the whole file."""
-    return HEAD + "".join(map(function, PRESETS)) + TAIL
-
-
 def files() -> dict[Path, str]:
     """Return the text of the file, by its path."""
-    return {FILE: source()}
+    return {FILE: HEAD + "".join(map(function, PRESETS)) + TAIL}

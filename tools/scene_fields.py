@@ -3,8 +3,6 @@ scene/_constants.py of the package, types.ts, fields.ts and constants.ts of web/
 docs/scene-files.md.
 """
 
-from __future__ import annotations
-
 import json
 import re
 import textwrap

@@ -13,8 +13,6 @@ Rows of other scenes stay as they are. Of a new row, lit_pixels are the pixels t
 The embedded EVM has 1 GB of memory; scenes that need more are measured if pyrevm is installed, and left out otherwise.
 """
 
-from __future__ import annotations
-
 import argparse
 import base64
 import csv
@@ -29,6 +27,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from tools.pages import ROOT
 
 from shackled import InputError
 from shackled.artifacts import artifact
@@ -40,7 +39,6 @@ from shackled.evm._instance import MOST_GAS, Instance, Status
 from .. import run_main
 from .documents import Document, call_data
 
-ROOT = Path(__file__).resolve().parents[2]
 CSV = ROOT / "src" / "shackled" / "bench" / "original.csv"
 SOLC = ROOT / "contracts" / "node_modules" / "solc"
 TOKEN = "Shackled"

@@ -10,8 +10,6 @@ Five of the fifteen models of the cost table cannot be made: of `armadillo`, `be
 `max-planck` it is not known from which file, or how, they were reduced.
 """
 
-from __future__ import annotations
-
 import argparse
 import hashlib
 import json
@@ -20,9 +18,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
 from shackled import InputError
+from shackled.base.checks import Floats, Ints
 from shackled.bench.scenes import cube, equal_triangles
 from shackled.datasets._drawing import cache_folder, keep
 from shackled.datasets.common._fetch import checksum, download
@@ -52,9 +50,6 @@ MODELS = (
     "https://raw.githubusercontent.com/alecjacobson/common-3d-test-models/8a4f8642acaf43f9cd7b67858a1502e1055ef202/data"
 )
 VTK = "https://raw.githubusercontent.com/pyvista/vtk-data/126ee906165a8b2f984f08259a4a2d32cf3b3409/Data"
-
-Array = NDArray[np.float64]
-Faces = NDArray[np.int64]
 
 
 @dataclass(frozen=True)
@@ -165,7 +160,7 @@ def file_of(name: str, source: Source, files: Path | None) -> Path:
     return path
 
 
-def geometry(path: Path, merge: bool) -> tuple[Array, Faces]:
+def geometry(path: Path, merge: bool) -> tuple[Floats, Ints]:
     """Read the vertices and triangles of a file in their own order, which decides what the simplification keeps."""
     from trimesh import Trimesh, load_mesh
 
@@ -187,7 +182,7 @@ def geometry(path: Path, merge: bool) -> tuple[Array, Faces]:
     return np.array(positions), np.array(faces)
 
 
-def reduced(positions: Array, faces: Faces, most: int, aggression: int) -> tuple[Array, Faces]:
+def reduced(positions: Floats, faces: Ints, most: int, aggression: int) -> tuple[Floats, Ints]:
     """Simplify a mesh to at most so many triangles."""
     from fast_simplification import simplify
 
@@ -197,7 +192,7 @@ def reduced(positions: Array, faces: Faces, most: int, aggression: int) -> tuple
     return kept.astype(float), found
 
 
-def model_document(positions: Array, faces: Faces, angles: tuple[float, float, float], cull: bool) -> Document:
+def model_document(positions: Floats, faces: Ints, angles: tuple[float, float, float], cull: bool) -> Document:
     """Return the scene of a mesh, turned, centred, on whole coordinates, in the colours of its normals."""
     turned = rotate(from_euler(angles), positions)
     turned = turned - (turned.min(axis=0) + turned.max(axis=0)) / 2
@@ -207,7 +202,7 @@ def model_document(positions: Array, faces: Faces, angles: tuple[float, float, f
     return document(128, MODEL_LIGHT, **keys, backgroundColor=MODEL_SKY, backfaceCulling=cull)
 
 
-def vertex_normals(positions: Array, faces: Faces) -> Array:
+def vertex_normals(positions: Floats, faces: Ints) -> Floats:
     """Return the mean normal of the triangles around each vertex, weighted by their angles there."""
     total = np.zeros(positions.shape)
     for corner in range(3):
@@ -218,7 +213,7 @@ def vertex_normals(positions: Array, faces: Faces) -> Array:
     return _units(total)
 
 
-def _units(vectors: Array) -> Array:
+def _units(vectors: Floats) -> Floats:
     lengths = np.linalg.norm(vectors, axis=1, keepdims=True)
     return np.asarray(np.divide(vectors, lengths, out=np.zeros_like(vectors), where=lengths > 0))
 

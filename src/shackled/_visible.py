@@ -1,7 +1,5 @@
 """Why nothing of a scene is to be seen."""
 
-from __future__ import annotations
-
 import numpy as np
 from attrs import evolve
 

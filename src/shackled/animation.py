@@ -87,7 +87,6 @@ class Animation(Hinted):
     file: ContractFile | None = None
 
     def __attrs_post_init__(self) -> None:
-        """Check that the frames fit together."""
         sizes = {frame.pixels.shape for frame in self.frames}
         if len(sizes) != 1:
             raise InputError(f"an animation needs at least one frame, and all of one size, not {len(sizes)} sizes")

@@ -1,7 +1,5 @@
 """The errors and warnings of the library. A message is one line and names parameters in backticks, such as `size`."""
 
-from __future__ import annotations
-
 import os
 import re
 import sys
@@ -97,7 +95,6 @@ class OutputError(ShackledError, OSError):
     """A file could not be written, for instance because the disk is full."""
 
     def __str__(self) -> str:
-        """Return the name of the file, and why it could not be written."""
         return f"{self.filename} cannot be written: {self.strerror or 'no reason is given'}"
 
 

@@ -1,7 +1,5 @@
 """Images: pixels, what they cost, and their file formats."""
 
-from __future__ import annotations
-
 import base64
 import hashlib
 import io
@@ -18,7 +16,7 @@ from numpy.typing import ArrayLike, DTypeLike, NDArray
 from PIL import Image as PillowImage
 from PIL.PngImagePlugin import PngInfo
 
-from .base.checks import fixed
+from .base.checks import Ints, fixed
 from .base.values import Value, array_key
 from .base.whole_file import check_output_file, write_output
 from .chain._chain import Drawing
@@ -72,7 +70,6 @@ class Image(Value):
     call_gas: int | None = None
 
     def __attrs_post_init__(self) -> None:
-        """Check alpha; encode the pixels where the file is not given."""
         if self.calls == 1 and self.call_gas is None:
             object.__setattr__(self, "call_gas", self.gas)
         if self.alpha is not None and self.alpha.shape != self.pixels.shape[:2]:
@@ -428,11 +425,11 @@ def indexed(frames: Sequence[Pixels]) -> list[PillowImage.Image]:
     return [PillowImage.fromarray(f).quantize(palette=palette, dither=PillowImage.Dither.NONE) for f in frames]
 
 
-def _distinct(frames: Sequence[Pixels]) -> NDArray[np.int64]:
+def _distinct(frames: Sequence[Pixels]) -> Ints:
     """Return the colours 0xRRGGBB of all frames, in order."""
     return np.unique(np.concatenate([np.unique(_packed(frame)) for frame in frames]))
 
 
-def _packed(frame: Pixels) -> NDArray[np.int64]:
+def _packed(frame: Pixels) -> Ints:
     """Return the colours as numbers 0xRRGGBB, (H, W)."""
     return np.asarray(frame.astype(np.int64) @ [1 << 16, 1 << 8, 1])

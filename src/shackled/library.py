@@ -1,14 +1,12 @@
 """The items of the library: their contents, and the addresses at which the Studio stores them."""
 
-from __future__ import annotations
-
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cache
 
 import numpy as np
-from numpy.typing import NDArray
 
+from .base.checks import Ints
 from .datasets._pieces import pieces
 from .datasets.common._models import models
 from .deploy._contract import deployments
@@ -36,8 +34,8 @@ class Item:
     scene: Scene
     transactions: tuple[StoreTransaction, ...]
     materials: tuple[Material, ...]
-    low: NDArray[np.int64]
-    high: NDArray[np.int64]
+    low: Ints
+    high: Ints
 
     @property
     def is_icon(self) -> bool:

@@ -68,7 +68,7 @@ def test_one_pixel_is_enough(tmp_path: Path) -> None:
 
 def test_the_command(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]) -> None:
     made = project(tmp_path, encoded([PillowImage.new("RGB", (8, 8))], "PNG"))
-    monkeypatch.setattr("shackled.preview._project.Project", lambda source: made)
+    monkeypatch.setattr("shackled.cli.preview.Project", lambda source: made)
     words = ["preview", str(made.source), "--check", "--tokens", "1"]
     assert run(words) == 1
     assert LINE in capsys.readouterr().out

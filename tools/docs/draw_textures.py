@@ -3,8 +3,6 @@
 python -m tools.docs.draw_textures
 """
 
-from __future__ import annotations
-
 import numpy as np
 from attrs import evolve
 from examples.showcase import vase

@@ -1,7 +1,5 @@
 """The project of docs/token-tutorial.md, and its preview."""
 
-from __future__ import annotations
-
 import json
 import re
 import shlex

@@ -53,13 +53,9 @@ decodeImagesBy(decodeInNode);
 try {
     await main(process.argv.slice(2));
 } catch (error) {
-    const { code, message } = error as Error & { code?: unknown };
-    if (
-        !(error instanceof InputError) &&
-        !String(code).startsWith("ERR_PARSE_ARGS") &&
-        (error as Error).name !== "CallError"
-    )
-        throw error;
+    const { code, name, message } = error as Error & { code?: unknown };
+    const isOfOptions = String(code).startsWith("ERR_PARSE_ARGS");
+    if (!isOfOptions && !(error instanceof InputError) && name !== "CallError") throw error;
     console.error(message);
     process.exitCode = 2;
 }
@@ -187,10 +183,8 @@ function changed(given: Document, meshes: Meshes, values: Values): Document {
         const [top, bottom = top] = colors.map((color) => toHex(color, "#"));
         doc = { ...doc, background: { top, bottom } };
     }
-    const [azimuth, elevation] = [
-        numberOf(values, "azimuth"),
-        numberOf(values, "elevation", ...FIELDS.Camera.elevation.limits),
-    ];
+    const azimuth = numberOf(values, "azimuth");
+    const elevation = numberOf(values, "elevation", ...FIELDS.Camera.elevation.limits);
     if (azimuth === undefined && elevation === undefined) return doc;
     const angles = { ...(azimuth !== undefined && { azimuth }), ...(elevation !== undefined && { elevation }) };
     return fitted(withCamera(doc, angles), meshes);

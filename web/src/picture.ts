@@ -3,7 +3,7 @@
 import { InputError } from "./errors.js";
 import { bytesAt, toHex, wordAt } from "./bytes.js";
 import type { ContractEvm } from "./evm/contracts.js";
-import { FUNCTIONS, type FunctionName } from "./scene/encode.js";
+import { FUNCTIONS, functionOf, type FunctionName } from "./scene/encode.js";
 import { MAX_SIDE } from "./scene/fields.js";
 
 /** A picture as a contract made it. */
@@ -42,12 +42,6 @@ export function drawCall(evm: ContractEvm, call: Uint8Array, gas?: number): Pict
     return { ...decodeBitmap(bmp), bmp, gas: answer.gas, ...counts };
 }
 
-/** Return the function that a call is of. */
-export function functionOf(call: Uint8Array): FunctionName | undefined {
-    const selector = call.length < 4 ? -1 : new DataView(call.buffer, call.byteOffset).getUint32(0);
-    return (Object.keys(FUNCTIONS) as FunctionName[]).find((name) => FUNCTIONS[name] === selector);
-}
-
 /** Return the same call of another function that takes the same arguments. */
 export function withFunction(call: Uint8Array, name: FunctionName): Uint8Array<ArrayBuffer> {
     const bytes = new Uint8Array(call);
@@ -69,9 +63,9 @@ export function decodeBitmap(bmp: Uint8Array): Pick<Picture, "width" | "height" 
     for (let y = 0, to = 0; y < height; y++) {
         let from = begin + row * (height - 1 - y);
         for (let x = 0; x < width; x++, from += 3, to += 4) {
-            pixels[to] = bmp[from + 2] as number;
-            pixels[to + 1] = bmp[from + 1] as number;
-            pixels[to + 2] = bmp[from] as number;
+            pixels[to] = bmp[from + 2];
+            pixels[to + 1] = bmp[from + 1];
+            pixels[to + 2] = bmp[from];
             pixels[to + 3] = 255;
         }
     }
@@ -85,9 +79,9 @@ export async function hashPixels(pixels: Uint8ClampedArray): Promise<string | nu
     if (!subtle) return null;
     const rgb = new Uint8Array((pixels.length / 4) * 3);
     for (let from = 0, to = 0; from < pixels.length; from += 4, to += 3) {
-        rgb[to] = pixels[from] as number;
-        rgb[to + 1] = pixels[from + 1] as number;
-        rgb[to + 2] = pixels[from + 2] as number;
+        rgb[to] = pixels[from];
+        rgb[to + 1] = pixels[from + 1];
+        rgb[to + 2] = pixels[from + 2];
     }
     return toHex(new Uint8Array(await subtle.digest("SHA-256", rgb)), "");
 }

@@ -1,6 +1,6 @@
 // Pictures, computed by the contracts' own bytecode.
 
-import { loadAssets, loadStages, type AssetSources } from "./evm/assets.js";
+import { keptOrLoaded, loadAssets, loadStages, type AssetSources } from "./evm/assets.js";
 import { ContractEvm } from "./evm/contracts.js";
 import type { StageGas } from "./evm/stages.js";
 import { drawCall, type Picture } from "./picture.js";
@@ -26,16 +26,7 @@ const stageMaps = once(loadStages);
 /** Return a function that loads something once for the same sources. */
 function once<T>(load: (sources: AssetSources) => Promise<T>): (sources: AssetSources | undefined) => Promise<T> {
     const cached = new WeakMap<AssetSources, Promise<T>>();
-    return (sources = DEFAULTS) => {
-        let found = cached.get(sources);
-        if (!found) {
-            found = load(sources);
-            cached.set(sources, found);
-            // what could not be loaded may be there later
-            found.catch(() => cached.delete(sources));
-        }
-        return found;
-    };
+    return (sources = DEFAULTS) => keptOrLoaded(cached, sources, () => load(sources));
 }
 
 /**

@@ -2,7 +2,17 @@
 
 import { readCall, type Call } from "./call.js";
 import { InputError, show } from "./errors.js";
-import { add, cross, fromAxisAngle, multiply, rotation, subtract, unit, type Vector } from "./scene/arithmetic.js";
+import {
+    add,
+    clamped,
+    cross,
+    fromAxisAngle,
+    multiply,
+    rotation,
+    subtract,
+    unit,
+    type Vector,
+} from "./scene/arithmetic.js";
 import { number, whole } from "./scene/checks.js";
 import { WORD, isTiled, q32, setWord } from "./scene/encode.js";
 import { MAX_COORDINATE } from "./scene/constants.js";
@@ -47,12 +57,12 @@ export function turnCall(call: Uint8Array, turn: Turn): Uint8Array {
     const zoom = number(turn.zoom ?? 1, "zoom", 2 ** -20, 2 ** 20);
     const found = readCall(call);
     const [low, high] = elevationsOf(found);
-    const elevation = Math.min(Math.max(number(turn.elevation ?? 0, "elevation"), low), high);
+    const elevation = clamped(number(turn.elevation ?? 0, "elevation"), low, high);
     const bytes = new Uint8Array(call);
     if (azimuth || elevation) turnCamera(found, bytes, azimuth, elevation);
     if (zoom !== 1) {
         const [least, most] = found.halfHeights;
-        const halfHeight = Math.min(Math.max(found.halfHeight.value / zoom, least), most);
+        const halfHeight = clamped(found.halfHeight.value / zoom, least, most);
         setWord(bytes, found.halfHeight.place, q32(halfHeight));
     }
     return bytes;

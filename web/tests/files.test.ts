@@ -322,11 +322,6 @@ test("an image is decoded once, whatever it is called, and all images have a bou
     );
 });
 
-test("reading ends when it is cancelled", async () => {
-    const { signal } = { signal: AbortSignal.abort() };
-    await assert.rejects(readFiles([text("a.obj", CUBE)], { size: 64, signal }), { name: "AbortError" });
-});
-
 test("surfaces are one mesh where their images and the use of these are the same, and an image counts once", () => {
     const pixels = Uint8Array.from({ length: 4 * 256 * 256 }, (_, at) => (97 * at) % 256);
     const [one, other]: Image[] = [pixels, pixels].map((each) => ({ width: 256, height: 256, pixels: each }));

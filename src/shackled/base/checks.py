@@ -1,7 +1,5 @@
 """Checks of arguments, each with a message that says what is wrong and what would be right."""
 
-from __future__ import annotations
-
 import math
 import operator
 import re
@@ -15,8 +13,10 @@ from ..errors import InputError
 
 Number = TypeVar("Number", bound=np.generic)
 Kind = TypeVar("Kind")
-#: Floats in an array that cannot be written to.
+#: Arrays of numbers; those of values cannot be written to.
 Floats = NDArray[np.float64]
+Ints = NDArray[np.int64]
+Flags = NDArray[np.bool_]
 #: What a colour is written as.
 COLORS = "red, green and blue from 0 to 255, #rgb, #rrggbb, or the name of a colour"
 #: Red, green and blue, 0..255.

@@ -1,7 +1,5 @@
 """Untrusted text: JSON, TOML, and lines for a terminal."""
 
-from __future__ import annotations
-
 import json
 import re
 import tomllib

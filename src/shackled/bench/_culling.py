@@ -71,7 +71,6 @@ def culling(runner: Runner) -> ExperimentReport:
 
 
 def measure(name: str) -> Pair:
-    """Measure one object."""
     scene = resize(require(name).make(), SIDE)
     culled, open_ = (evolve(scene, objects=[evolve(o, cull=cull) for o in scene.objects]) for cull in (True, False))
     a, b = cost(culled), cost(open_)

@@ -65,7 +65,6 @@ def genesis(runner: Runner) -> ExperimentReport:
 
 
 def measure(number: int) -> GenesisCost:
-    """Measure one piece."""
     scene = require(f"genesis/{number}").make()
     found = cost(scene)
     wireframe = any(o.wireframe for o in scene.objects)

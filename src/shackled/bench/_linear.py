@@ -71,7 +71,6 @@ def _share(x: Column, gas: Column) -> str:
 
 
 def _plot_line(axes: Axes, x: Column, y: Column, mark: str, color: str, label: str | None = None) -> None:
-    """Draw points, and the best line through them."""
     constant, slope = fit([x], y).coefficients
     axes.plot(x, y, mark, color=color, ms=4, label=label)
     axes.plot(x, constant + slope * x, ":", color=color, lw=1.2)
@@ -84,7 +83,6 @@ def _panel(axes: Axes, x: Column, y: Column, color: str, title: str, label: str)
 
 
 def _gallery(counts: tuple[int, ...]) -> PillowImage.Image:
-    """Return the pictures, four in a row."""
     pictures = [picture(equal_triangles(count)) for count in counts]
     rows = [np.hstack(pictures[at : at + 4]) for at in range(0, len(pictures), 4)]
     return PillowImage.fromarray(np.vstack(rows))

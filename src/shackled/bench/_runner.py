@@ -3,8 +3,6 @@
 An experiment is a function of a module of this package.
 """
 
-from __future__ import annotations
-
 import os
 from collections.abc import Callable, Iterable
 from importlib import import_module
@@ -44,7 +42,6 @@ class Runner:
         self._show = show
 
     def run(self, name: str) -> ExperimentReport:
-        """Run one of EXPERIMENTS."""
         module = "linear" if name == "triangles" else name
         report: ExperimentReport = getattr(import_module(f"._{module}", __package__), name)(self)
         return report

@@ -1,7 +1,5 @@
 """Fit linear functions to measurements."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from typing import NamedTuple
 

@@ -3,13 +3,11 @@
 Those that the original was measured with are the same here to the last unit: whole coordinates, its camera, its light.
 """
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ..base.checks import Ints
 from ..scene._arithmetic import from_euler, rotate
 from ..scene._camera import Camera
 from ..scene._effects import Background
@@ -96,7 +94,7 @@ def square_mesh(divisions: int) -> Mesh:
     return Mesh(np.stack([x, y, 0 * x], axis=1), faces, np.rint(255 * share))
 
 
-def grid(divisions: int) -> tuple[Column, Column, NDArray[np.int64]]:
+def grid(divisions: int) -> tuple[Column, Column, Ints]:
     """Return x and y from -1 to 1 of the points of a square grid, and its triangles, which face +z."""
     at = np.linspace(-1, 1, divisions + 1)
     x, y = (axis.ravel() for axis in np.meshgrid(at, at))

@@ -3,8 +3,6 @@
 Every call starts from the same state, so that the same call always costs the same gas.
 """
 
-from __future__ import annotations
-
 import threading
 from abc import abstractmethod
 from collections.abc import Callable, Iterator
@@ -36,7 +34,6 @@ class EmbeddedChain(ContractChain):
     """A chain in this process. Contracts are created at their first call, after those that their constructors need."""
 
     def __init__(self, gas_limit: int = DEFAULT_GAS_LIMIT) -> None:
-        """Take the default gas limit of calls."""
         self.gas_limit = gas_limit
         self._codes: dict[bytes, bytes] = {}
         self._addresses: dict[str, bytes] = {}
@@ -156,7 +153,6 @@ class RevmChain(EmbeddedChain):
 
 
 def _failed(answer: Answer, gas_limit: int) -> ChainError:
-    """Return the error for a call that was not successful."""
     if answer.status == Status.REVERT:
         return revert_error(answer.output, gas_limit)
     if answer.status == Status.OUT_OF_GAS:

@@ -1,7 +1,5 @@
 """JSON-RPC over HTTP, with a timeout for the whole answer."""
 
-from __future__ import annotations
-
 import itertools
 import json
 import re
@@ -100,7 +98,6 @@ class Transport:
             return response.status_code, response.headers, b"".join(parts)
 
     def _session(self) -> requests.Session:
-        """Return the session of this thread."""
         if not hasattr(self._sessions, "session"):
             self._sessions.session = requests.Session()
             self._sessions.session.trust_env = not self.local

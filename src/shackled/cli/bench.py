@@ -1,12 +1,12 @@
 """shackled bench"""
 
-from __future__ import annotations
-
 import sys
 from pathlib import Path
 
 from ..base.checks import choice
 from ..base.whole_file import check_output_folder
+from ..bench._report import can_plot
+from ..bench._runner import EXPERIMENTS, Runner
 from ..errors import InputError
 from .option import argument, option
 from .progress import LateBar
@@ -19,9 +19,6 @@ def bench(
     processes: int | None = option("--processes", "Number of processes; one per core by default.", "N", min=1),
 ) -> None:
     """Run the experiments of the Shackled paper: gas against canvas, triangles, culling and more."""
-    from ..bench._report import can_plot
-    from ..bench._runner import EXPERIMENTS, Runner
-
     if not names and output is None:
         print("\n".join(f"{name:10} {text}" for name, text in EXPERIMENTS.items()))
         print("\nshackled bench NAME ... -o DIR runs them, shackled bench -o DIR runs all.")

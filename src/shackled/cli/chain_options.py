@@ -18,19 +18,20 @@ from ..base.untrusted import plain
 from ..base.values import plural
 from ..base.whole_file import check_output_file, write_output
 from ..chain._connection import PATIENCE, Connection
+from ..deploy._account import environment_account, keystore_account, read_keystore, signer_class
+from ..deploy._deployer import Plan
+from ..deploy._quote import Call, Quote
+from ..deploy._transactor import Receipt, Transactor
 from ..errors import InputError
 from ..ethereum._amounts import GWEI, at_most, ether, roughly
 from ..ethereum._encoding import checksum_address, parse_address
+from ..tokens._collection import Collection
+from ..tokens._contract import plan
 from .option import exclude, option
 from .output import print_json, print_note
 
 if TYPE_CHECKING:
     from eth_account.signers.local import LocalAccount
-
-    from ..deploy._deployer import Plan
-    from ..deploy._quote import Call, Quote
-    from ..deploy._transactor import Receipt, Transactor
-    from ..tokens._collection import Collection
 
 #: The environment variable with the password of a keystore file.
 PASSWORD = "SHACKLED_PASSWORD"
@@ -44,11 +45,6 @@ def parse_max_fee(gwei: float, name: str) -> int:
 def parse_checksum_address(text: str, name: str) -> str:
     """Return an address with its checksum. InputError, which names `name`, if it is invalid."""
     return checksum_address(parse_address(text, name))
-
-
-def parse_calldata(path: Path, name: str) -> Path:
-    """Return the path of --calldata. InputError if no file can be written there, before the work for it begins."""
-    return check_output_file(path, "list of transactions")
 
 
 def address(name: str, text: str) -> Any:
@@ -70,7 +66,8 @@ CALLDATA = option(
     "Write the transactions to a JSON file for a wallet, and send nothing.",
     "FILE",
     type=Path,
-    parse=parse_calldata,
+    # before the work for it begins
+    parse=lambda path, _: check_output_file(path, "list of transactions"),
 )
 
 
@@ -122,15 +119,11 @@ class SignerOptions:
         """Raise InputError if two accounts were named, or if none can sign here."""
         exclude("--account", self.account, {"--private-key-env": self.private_key_env})
         if self.is_given:
-            from ..deploy._account import signer_class
-
             signer_class()
 
     @cached_property
     def signer(self) -> LocalAccount:
         """The account, opened once. InputError if none was named or it cannot be opened; messages never show a key."""
-        from ..deploy._account import environment_account, keystore_account, read_keystore
-
         self.check()
         if self.private_key_env is not None:
             return environment_account(self.private_key_env)
@@ -154,14 +147,10 @@ class PayerOptions(SignerOptions):
 
     def transactor(self, connection: Connection) -> Transactor:
         """Return a transactor of the account."""
-        from ..deploy._transactor import Transactor
-
         return Transactor(connection, self.signer, max_fee=self.max_fee)
 
     def send(self, collection: Collection, title: str, call: Call) -> Receipt:
         """Print the price of a transaction to a collection, ask for consent, and send it. title: what it does."""
-        from ..tokens._contract import plan
-
         transactor = self.transactor(collection.connection)
         quote = plan(transactor, call)
         print_note(f"{collection.name} on chain {collection.connection.chain_id}: {title}")

@@ -1,7 +1,5 @@
 """shackled creator"""
 
-from __future__ import annotations
-
 import json
 import re
 import shutil

@@ -1,7 +1,5 @@
 """shackled datasets"""
 
-from __future__ import annotations
-
 import json
 import sys
 from collections.abc import Iterable, Sequence
@@ -12,8 +10,10 @@ from typing import Any
 
 from ..base.checks import choice
 from ..base.whole_file import check_output_file, write_output
-from ..datasets._drawing import PieceCost, cost
+from ..datasets._drawing import PieceCost, cost, draw_all, page, sheet
 from ..datasets._pieces import DATASETS, Piece, pieces
+from ..datasets.common import _fetch
+from ..datasets.common._models import model
 from ..errors import InputError
 from .option import argument, option
 from .progress import LateBar
@@ -79,16 +79,13 @@ def fetch(
     source: Path | None = option("--from", "A copy of the published file, to use instead of a download.", "FILE"),
 ) -> None:
     """Download third-party models, clean and simplify them, and store the result."""
-    from ..datasets.common._fetch import fetch
-    from ..datasets.common._models import model
-
     if source is not None and len(names) != 1:
         raise InputError("--from needs exactly one NAME")
     for each in [model(name) for name in names]:
         piece = each.piece()
         print(piece.notice, file=sys.stderr)
         with LateBar(f"fetching {each.name}"):
-            fetch(each, source)
+            _fetch.fetch(each, source)
         name, triangles, gas, *_ = _line(piece, cost(piece))
         print(f"{name}: {triangles} triangles, {gas} gas; shackled render {name}")
 
@@ -100,8 +97,6 @@ def gallery(
     jobs: int | None = option("--jobs", "Number of worker processes; one per core by default.", min=1),
 ) -> None:
     """Render all pieces into a self-contained HTML page or a contact sheet. Finished pictures are cached."""
-    from ..datasets._drawing import draw_all, page, sheet
-
     is_page = output.suffix.lower() == ".html"
     if not is_page and output.suffix.lower() != ".png":
         raise InputError(f"the gallery {output} must end in .html or .png")

@@ -1,31 +1,20 @@
 """shackled deploy"""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from ..chain._connection import PATIENCE, Connection
+from ..deploy._contract import CONTRACTS, STANDARD, Deployment, deployments, write_verification
+from ..deploy._deployer import Deployer, Plan
+from ..deploy._quote import current_fees
+from ..deploy._transactor import Receipt
 from ..errors import InputError
 from ..ethereum._amounts import GWEI, at_most, rounded
 from ..ethereum._encoding import checksum_address
-from .chain_options import (
-    CALLDATA,
-    NodeOptions,
-    PayerOptions,
-    print_rollup_fee,
-    print_step,
-    wallet_calls,
-    write_calls,
-)
+from .chain_options import CALLDATA, NodeOptions, PayerOptions, print_rollup_fee, print_step, wallet_calls, write_calls
 from .option import option
 from .output import print_json, print_line, print_note, print_table
-
-if TYPE_CHECKING:
-    from ..deploy._contract import Deployment
-    from ..deploy._deployer import Plan
-    from ..deploy._transactor import Receipt
 
 
 def deploy(
@@ -47,10 +36,6 @@ def deploy(
     rpc_timeout: float = option("--rpc-timeout", "Timeout of a call to the node.", "SECONDS", default=PATIENCE),
 ) -> None:
     """Deploy the contracts, at the same addresses on every chain. Prints the price first and skips what exists."""
-    from ..deploy._contract import CONTRACTS, STANDARD, deployments
-    from ..deploy._deployer import Deployer
-    from ..deploy._quote import current_fees
-
     node.check()
     payer.check()
     names = STANDARD if contracts is None else [name.strip() for name in contracts.split(",") if name.strip()]
@@ -95,8 +80,6 @@ def deploy(
 
 def _write_verification(folder: Path, chain_id: int, wanted: Sequence[Deployment]) -> None:
     """Write the files for explorers, with one note for the contracts that are left out."""
-    from ..deploy._contract import write_verification
-
     left_out = write_verification(folder, chain_id, wanted)
     if left_out:
         print_note(

@@ -1,9 +1,8 @@
 """shackled genesis"""
 
-from __future__ import annotations
-
 import json
 
+from ..datasets.genesis import generate_on_chain, parse_seed, picture_on_chain
 from ..errors import InputError
 from ..image import FORMATS, check_output, one_of
 from ..scene._files.picture import PICTURE
@@ -18,8 +17,6 @@ def genesis(
     output: str | None = option("-o --output", f"Output file for the picture of one SEED: {one_of(FORMATS)}.", "FILE"),
 ) -> None:
     """Generate Genesis pieces from seeds in the contract."""
-    from ..datasets.genesis import generate_on_chain, parse_seed, picture_on_chain
-
     if output is not None and len(seeds) > 1:
         raise InputError(f"--output needs exactly one SEED, not {len(seeds)}")
     path = None if output is None else check_output(output)

@@ -11,10 +11,10 @@ from typing import Any
 
 import numpy as np
 from attrs import evolve
-from numpy.typing import NDArray
 
 from .._load import is_model, load, locate
 from .._render import render
+from ..base.checks import Floats, Ints
 from ..base.values import listed, plural
 from ..datasets._pieces import Piece
 from ..errors import ChainError, InputError, InputWarning, ShackledError
@@ -227,7 +227,7 @@ def facts_of(place: Path | Piece | Link) -> Facts:
     )
 
 
-def _edges(positions: NDArray[np.float64], faces: NDArray[np.int64]) -> tuple[int, int, int]:
+def _edges(positions: Floats, faces: Ints) -> tuple[int, int, int]:
     """Return the numbers of edges of one face, of three or more, and of two that are wound differently.
 
     Corners at one place are one; edges without length are none.

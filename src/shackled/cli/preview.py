@@ -1,25 +1,21 @@
 """shackled preview"""
 
-from __future__ import annotations
-
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from ..base.untrusted import plain
 from ..errors import VerificationError
 from ..ethereum._encoding import checksum_address
+from ..preview._preview import Preview, Request, Token
+from ..preview._project import CompilerError, Project
+from ..preview._report import folded, summary
+from ..preview._server import serve
+from ..preview._world import MAX_GAS, stored_scene
 from .option import argument, need, option
 from .output import print_json, print_line, print_note, print_table
 from .progress import LateBar
 
-if TYPE_CHECKING:
-    from ..preview._preview import Request, Token
-    from ..preview._project import Project
-
 #: Default port of the page.
 PORT = 8090
-#: Gas of one transaction on Ethereum.
-MAX_GAS = 1 << 24
 
 
 def preview(
@@ -56,11 +52,6 @@ def preview(
     browser: bool = option("--browser/--no-browser", "Open the page in the browser.", default=True),
 ) -> None:
     """Show the tokens of a Solidity contract, and their gas, on a page that updates when a source changes."""
-    from ..preview._preview import Request
-    from ..preview._project import Project
-    from ..preview._server import serve
-    from ..preview._world import stored_scene
-
     need("--check", check, {"--json": as_json})
     project = Project(source)
     stored: dict[bytes, bytes] = {}
@@ -78,10 +69,6 @@ def preview(
 
 def _check(project: Project, request: Request, as_json: bool) -> None:
     """Check all tokens. VerificationError if one of them has a problem."""
-    from ..preview._preview import Preview
-    from ..preview._project import CompilerError
-    from ..preview._report import folded, summary
-
     found: list[Token] = []
     with LateBar("reading tokens") as bar:
         try:

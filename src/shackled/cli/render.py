@@ -1,7 +1,5 @@
 """shackled render and stages"""
 
-from __future__ import annotations
-
 import io
 import json
 import sys

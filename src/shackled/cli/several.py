@@ -1,7 +1,5 @@
 """Several inputs of one command: which they are, the names of their pictures, and what becomes of each."""
 
-from __future__ import annotations
-
 import io
 import json
 import os
@@ -193,7 +191,6 @@ def _outcomes(work: Sequence[Work], bar: LateBar) -> Iterator[tuple[int, Outcome
 
 
 def _render(notes: Action, work: Work) -> Outcome:
-    """Render one input, in this process or in one of several."""
     return _heard(partial(work.render, Notes()), notes)
 
 

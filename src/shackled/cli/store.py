@@ -1,35 +1,25 @@
 """shackled store, library list and library store: scenes in the Studio"""
 
-from __future__ import annotations
-
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
-from .._load import is_model, load, locate
-from ..chain._connection import Connection
+from .._load import locate
+from ..chain._connection import Connection, read_all
 from ..datasets._pieces import Piece
+from ..deploy._quote import Quote, current_fees
 from ..errors import InputError
 from ..ethereum._encoding import checksum_address
 from ..image import FORMATS, check_output, one_of
+from ..library import chosen_items, items
 from ..scene._settings import ALL
-from .chain_options import (
-    CALLDATA,
-    JSON,
-    NodeOptions,
-    PayerOptions,
-    print_price,
-    print_step,
-    wallet_calls,
-    write_calls,
-)
+from ..tokens._icons import licence_of, scene_to_store
+from ..tokens._storage import SceneToStore, StoragePlan, plan_storage, read_back
+from ..tokens._storage import store as send
+from .chain_options import CALLDATA, JSON, NodeOptions, PayerOptions, print_price, print_step, wallet_calls, write_calls
 from .look_options import parse_size
 from .option import argument, exclude, option
 from .output import print_json, print_line, print_note, print_table
 from .progress import LateBar
-
-if TYPE_CHECKING:
-    from ..deploy._quote import Quote
-    from ..tokens._storage import StoragePlan
 
 
 def store(
@@ -54,21 +44,14 @@ def store(
 
     Prints the price first; cannot be undone.
     """
-    from ..deploy._quote import current_fees
-    from ..tokens._icons import licence_of, token_scene
-    from ..tokens._storage import SceneToStore, plan_storage, read_back
-
     exclude("--calldata", calldata, {"--output": output})
     path = None if output is None else check_output(output)
     source = locate(input)
     terms = licence_of(source, licence)
     node.check()
     payer.check()
-    # a token is drawn by nodes of all kinds, of which many allow a call too little gas for antialiased meshes
-    is_mesh = is_model(source)
-    thing = (token_scene(source) if size is None else source.make()) if isinstance(source, Piece) else source
     # what is stored can be drawn at any size
-    scene = load(thing, size, max_triangles=max_triangles or ALL, antialias=False if is_mesh else None)
+    scene = scene_to_store(source, size, max_triangles or ALL)
     wanted = SceneToStore(input, scene, position_bits)
     connection = node.connect()
     with LateBar("reading the chain"):
@@ -119,9 +102,6 @@ def store(
 
 def list_(node: NodeOptions, as_json: bool = JSON) -> None:
     """List the items: bounds, triangles, bytes, gas to store, pointers; with --rpc, whether they are stored."""
-    from ..chain._connection import read_all
-    from ..library import items
-
     stored: dict[str, bool] = {}
     with LateBar("reading items") as bar:
         found = items()
@@ -167,10 +147,6 @@ def store_items(
     as_json: bool = JSON,
 ) -> None:
     """Store items of the library on a chain. Skips stored items; prints the price first; cannot be undone."""
-    from ..deploy._quote import current_fees
-    from ..library import chosen_items
-    from ..tokens._storage import SceneToStore, plan_storage
-
     node.check()
     payer.check()
     with LateBar("reading items"):
@@ -211,8 +187,6 @@ def _send(
 
     named: the transactions by their purpose, for a wallet. more: of the JSON.
     """
-    from ..tokens._storage import store as send
-
     if storage.parts.missing:
         names = ", ".join(step.name for step in storage.parts.missing)
         print_note(f"deploying {names} first: {storage.parts.gas:,} gas")

@@ -6,12 +6,9 @@ radius. Handle and spout are given by the half at y <= 0 and mirrored. His z axi
 spout at +x.
 """
 
-from __future__ import annotations
-
 import numpy as np
-from numpy.typing import NDArray
 
-from ..base.checks import whole
+from ..base.checks import Floats, whole
 from ..scene._mesh import Mesh
 from .common import shapes
 
@@ -63,7 +60,7 @@ LIMBS = (
 )
 
 
-def patches() -> NDArray[np.float64]:
+def patches() -> Floats:
     """Return the control points, (32, 4, 4, 3), z up, u and v in the order of the indices.
 
     The outside is where d/du x d/dv points.
@@ -88,7 +85,7 @@ def teapot(divisions: int = 6) -> Mesh:
     return shapes.smooth(points[..., [0, 2, 1]].reshape(-1, 3) * (1, 1, -1), faces)
 
 
-def _quarter(profile: Profile, turn: int) -> NDArray[np.float64]:
+def _quarter(profile: Profile, turn: int) -> Floats:
     """Return the patch that a profile sweeps in a quarter turn about the z axis, after `turn` of them."""
     rows = []
     for radius, height in profile:
@@ -100,13 +97,13 @@ def _quarter(profile: Profile, turn: int) -> NDArray[np.float64]:
     return points
 
 
-def _half(limb: Limb, side: int) -> NDArray[np.float64]:
+def _half(limb: Limb, side: int) -> Floats:
     """Return the half of a limb at y < 0 (side -1) or y > 0 (side 1)."""
     rows = [[(xi, 0, zi), (xi, side * w, zi), (xo, side * w, zo), (xo, 0, zo)] for (xi, zi), (xo, zo), w in limb]
     return np.array(rows)[:, ::side]
 
 
-def _bernstein(t: NDArray[np.float64]) -> NDArray[np.float64]:
+def _bernstein(t: Floats) -> Floats:
     """Return the weights of the four control points at each t, (n, 4)."""
     s = 1 - t
     return np.stack([s**3, 3 * s**2 * t, 3 * s * t**2, t**3], axis=1)

@@ -1,7 +1,5 @@
 """The deployer: plans, quotes and sends the transactions of contracts that a chain does not have yet."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
@@ -76,7 +74,6 @@ class Deployer:
     """Deploys contracts through the deterministic-deployment proxy, and records their addresses."""
 
     def __init__(self, connection: Connection, book: AddressBook | None = None) -> None:
-        """Take a connection and an address book; None uses the user's."""
         self.connection = connection
         self.book = AddressBook() if book is None else book
 

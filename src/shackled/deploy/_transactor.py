@@ -165,7 +165,6 @@ class Transactor:
             )
 
     def _count(self, block: str) -> int:
-        """Return the number of transactions of the account."""
         return self.connection.number("eth_getTransactionCount", to_hex(self.address), block)
 
     def _follow(self, digest: str, transaction: dict[str, Any]) -> Receipt:
@@ -254,7 +253,6 @@ class Transactor:
 
 
 def _are_logs(logs: Any) -> bool:
-    """Return whether these are the events of a receipt."""
     return isinstance(logs, list) and all(
         isinstance(log, dict)
         and _is_hex(log.get("address"), 20)
@@ -269,5 +267,4 @@ def _is_hex(value: Any, size: int) -> bool:
 
 
 def _why(data: bytes, gas: int = 0) -> str:
-    """Return why a contract reverted a transaction."""
     return str(revert_error(data, gas)) if data else "the contract gave no reason"

@@ -1,7 +1,5 @@
 """The ABI: calls of functions, their results, and errors."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from functools import cache, cached_property
@@ -21,7 +19,6 @@ class Interface:
     """
 
     def __init__(self, abi: Iterable[Mapping[str, Any]]) -> None:
-        """Take the entries of an ABI."""
         self._abi = list(abi)
 
     def encode(self, function: str, *arguments: Any) -> bytes:

@@ -1,7 +1,5 @@
 """Hexadecimal text, ABI words, hashes, addresses, the intrinsic gas of data, and the RLP of block headers."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Mapping
 from typing import Any
@@ -65,6 +63,18 @@ def parse_address(text: str, name: str) -> bytes:
     return address
 
 
+PUSH1, PUSH32 = 0x60, 0x7F
+
+
+def instructions(code: bytes) -> list[int]:
+    """Return the positions of the instructions of a code, without pushed values."""
+    places, at = [], 0
+    while at < len(code):
+        places.append(at)
+        at += 1 + (code[at] - PUSH1 + 1 if PUSH1 <= code[at] <= PUSH32 else 0)
+    return places
+
+
 #: The fields of a header in JSON-RPC, in order.
 HEADER_FIELDS = (
     *("parentHash", "sha3Uncles", "miner", "stateRoot", "transactionsRoot", "receiptsRoot", "logsBloom", "difficulty"),
@@ -98,7 +108,6 @@ def encode_header(block: Mapping[str, Any]) -> bytes:
 
 
 def _rlp(data: bytes) -> bytes:
-    """Encode bytes in RLP."""
     return data if len(data) == 1 and data[0] < 0x80 else _length(len(data), 0x80) + data
 
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from enum import IntEnum
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -103,10 +104,8 @@ class Instance:
                 raise InputError(f"`{name}` must be a whole number from 0 to 2^64 - 1, not {value!r:.60}")
         if not isinstance(prevrandao, bytes) or len(prevrandao) != 32:
             raise InputError(f"`prevrandao` must be 32 bytes, not {prevrandao!r:.60}")
-        place = self._run("allocate", 32)
-        self._memory.write(self._store, prevrandao, place)
-        self._run("set_block", int(number), int(timestamp), place)
-        self._run("release", place, 32)
+        with self._placed(prevrandao) as places:
+            self._run("set_block", int(number), int(timestamp), *places)
 
     def call(self, address: bytes, data: bytes, gas: int) -> Answer:
         """Call a contract with at most `gas` for the execution."""
@@ -140,10 +139,8 @@ class Instance:
 
     def translate(self, code: bytes, region: int) -> bytes:
         """Return a code as a module of WebAssembly, in regions of so many instructions; b"" if too large."""
-        place = self._run("allocate", len(code))
-        self._memory.write(self._store, code, place)
-        size = self._run("compile", place, len(code), region, 1)
-        self._run("release", place, len(code))
+        with self._placed(code) as places:
+            size = self._run("compile", *places, len(code), region, 1)
         return self._read("module", size)
 
     def compile(self, address: bytes) -> bool:
@@ -153,10 +150,9 @@ class Instance:
     def _note_busiest(self) -> None:
         """Let the contract that used most gas in the interpreter run as machine code, if there is some."""
         self._gas, self._patience = 0, 2 * self._patience
-        place = self._run("allocate", ADDRESS)
-        gas = self._run("busiest", place, MUCH_GAS)
-        address = bytes(self._memory.read(self._store, place, place + ADDRESS))
-        self._run("release", place, ADDRESS)
+        with self._placed(bytes(ADDRESS)) as (place,):
+            gas = self._run("busiest", place, MUCH_GAS)
+            address = bytes(self._memory.read(self._store, place, place + ADDRESS))
         if gas and address in self._codes:
             self._patience = MUCH_GAS
             self._link(
@@ -175,22 +171,25 @@ class Instance:
             return False
         run = instance.exports(self._store)["run"]
         place = self._exports["__indirect_function_table"].grow(self._store, 1, run)
-        room = self._run("allocate", ADDRESS)
-        self._memory.write(self._store, address, room)
-        self._run("link", room, place)
-        self._run("release", room, ADDRESS)
+        with self._placed(address) as places:
+            self._run("link", *places, place)
         return True
 
     def _pass(self, function: str, *values: bytes, gas: int | None = None) -> Any:
         """Call an exported function with values in memory, and the size of the last."""
+        limit = [] if gas is None else [min(gas, MOST_GAS)]
+        with self._placed(*values) as places:
+            return self._run(function, *places, len(values[-1]), *limit)
+
+    @contextmanager
+    def _placed(self, *values: bytes) -> Iterator[list[int]]:
+        """Keep values in memory; yield their places."""
         places = [self._run("allocate", len(value)) for value in values]
         for place, value in zip(places, values, strict=True):
             self._memory.write(self._store, value, place)
-        limit = [] if gas is None else [min(gas, MOST_GAS)]
-        result = self._run(function, *places, len(values[-1]), *limit)
+        yield places
         for place, value in zip(places, values, strict=True):
             self._run("release", place, len(value))
-        return result
 
     def _answer(self, status: int) -> Answer:
         return Answer(Status(status), self._read("answer", self._run("answer_size")), self._run("gas_used"))

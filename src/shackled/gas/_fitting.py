@@ -4,8 +4,6 @@ The order is the one that costs the eye least for the gas that it saves, by FLIP
 picture as it was asked for, at its size: see docs/gas.md and benchmarks/fitting.py.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Literal
@@ -99,7 +97,6 @@ class _Fitting:
         self._simpler = {triangles: scene}
 
     def run(self) -> Fitted:
-        """Find the first settings that fit, in the order of the steps."""
         found, least, remark = self._find()
         if found is not None:
             return self._fitted(*found)

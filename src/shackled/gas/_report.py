@@ -1,20 +1,17 @@
 """All figures of the gas of one picture."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from typing import Any
 
 from ..chain._chain import ContractChain
 from ..chain._node import NodeChain
+from ..ethereum._amounts import ETHER, GWEI
 from ..scene._scene import Scene
 from ._limits import ExactGas, Fit, fits_as_json, fits_of, measure, render_call
 from ._profile import Profile, profile
 from ._quick_path import missed_quick_path
 from ._search import Search, SearchStep, search, suffices
-
-GWEI_PER_ETHER = 10**9
 
 
 @dataclass(frozen=True)
@@ -49,7 +46,7 @@ class GasReport:
 
     def ether(self, gas_price: float) -> float:
         """Return the price of a transaction, by the price of gas in gwei."""
-        return self.exact.transaction_gas * gas_price / GWEI_PER_ETHER
+        return self.exact.transaction_gas * gas_price / (ETHER // GWEI)
 
     def to_json(self, gas_price: float, eth_price: float | None) -> dict[str, Any]:
         """Return the object that `shackled gas --json` prints."""

@@ -1,7 +1,5 @@
 """Find the gas that a call needs by bisection, from nothing but whether a limit suffices."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -36,7 +34,6 @@ class Search:
 
     @property
     def calls(self) -> int:
-        """Return the number of calls."""
         return len(self.steps)
 
 

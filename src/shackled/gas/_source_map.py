@@ -1,7 +1,5 @@
 """Map the instructions of a contract to its sources."""
 
-from __future__ import annotations
-
 import json
 import re
 from bisect import bisect_right
@@ -13,8 +11,7 @@ from typing import Any
 
 from ..artifacts import artifact
 from ..artifacts import source as text_of
-
-_PUSH1, _PUSH32 = 0x60, 0x7F
+from ..ethereum._encoding import instructions
 
 
 @dataclass(frozen=True)
@@ -81,7 +78,7 @@ def source_map(contract: str) -> SourceMap:
 def instruction_sources(code: bytes, entries: str) -> Iterator[tuple[int, int, int, int, str]]:
     """Yield position, number of the source (-1: none), begin, end and jump of each instruction of a source map."""
     fields = ["0", "0", "-1", "-"]
-    for at, entry in zip(_instructions(code), entries.split(";"), strict=False):
+    for at, entry in zip(instructions(code), entries.split(";"), strict=False):
         # begin:length:source:jump:..., where empty fields repeat the entry before
         for i, field in enumerate(entry.split(":")[:4]):
             fields[i] = field or fields[i]
@@ -100,15 +97,6 @@ def _entry(name: str, source: SourceFile, begin: int, end: int) -> tuple[str, in
     stem = source.name.rpartition("/")[2].removesuffix(".sol")
     found = re.compile(rb"\bfunction\s+" + own.encode() + rb"\b").search(source.text, begin, end)
     return f"{stem}.{own}", source.line(found.start() if found else begin)
-
-
-def _instructions(code: bytes) -> list[int]:
-    """Return the positions of the instructions, without pushed values."""
-    places, at = [], 0
-    while at < len(code):
-        places.append(at)
-        at += 1 + (code[at] - _PUSH1 + 1 if _PUSH1 <= code[at] <= _PUSH32 else 0)
-    return places
 
 
 @cache

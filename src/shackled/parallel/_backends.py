@@ -1,7 +1,5 @@
 """Backends: where the parts of pictures are rendered, and how their answers are verified."""
 
-from __future__ import annotations
-
 import random
 from dataclasses import dataclass
 from typing import Protocol
@@ -61,7 +59,6 @@ class ChainBackend(Backend):
     """A chain: an EVM in this process, or a node, with so many calls at a time."""
 
     def __init__(self, chain: Chain, slots: int = 1, untrusted: bool = False, gas: int | None = None) -> None:
-        """Take the fields of `Backend`."""
         self.chain, self.slots, self.untrusted, self.gas = chain, slots, untrusted, gas
 
     @property

@@ -1,7 +1,5 @@
 """Estimate the gas of a large picture from small pictures of the same scene."""
 
-from __future__ import annotations
-
 import math
 from bisect import bisect_right
 from dataclasses import dataclass

@@ -1,7 +1,5 @@
 """Values that the author gives: for the constructor, and for calls such as `mint{value: 0.1 ether}(3) x 5`."""
 
-from __future__ import annotations
-
 import json
 import re
 from collections.abc import Mapping, Sequence
@@ -62,7 +60,6 @@ def parse_call(text: str, contract: Compiled) -> Call:
 
 
 def _encoded(entry: Mapping[str, Any], values: Sequence[str]) -> bytes:
-    """Return the data of a call of a function."""
     what = [f"{entry['name']}: {each['name'] or each['type']}" for each in entry["inputs"]]
     parsed = [parse_value(*each) for each in zip(values, entry["inputs"], what, strict=True)]
     return Interface([entry]).encode(entry["name"], *parsed)
@@ -141,7 +138,6 @@ def parse_value(text: str, parameter: Mapping[str, Any], what: str) -> Any:
 
 
 def _nested(value: Any, parameter: Mapping[str, Any], what: str) -> Any:
-    """Convert the parts of a list or a tuple."""
     kind = str(parameter["type"])
     array = re.fullmatch(r"(.*)\[(\d*)\]", kind)
     if array and isinstance(value, list) and array[2] in ("", str(len(value))):

@@ -1,7 +1,5 @@
 """What a token returns, which is untrusted: its metadata and pictures, judged as marketplaces read them."""
 
-from __future__ import annotations
-
 import io
 import json
 import re
@@ -194,14 +192,12 @@ def unicode_fault(error: UnicodeError) -> str:
 
 
 def _svg_or_file(text: Any, key: str, note: Callable[[str], None]) -> File | None:
-    """Return the file of an SVG or of a `data:` URI."""
     if isinstance(text, str) and text.lstrip().startswith("<"):
         return _checked(File(SVG, text.encode()), key, note)
     return _file(text, key, note)
 
 
 def _file(uri: Any, key: str, note: Callable[[str], None]) -> File | None:
-    """Return the file of a `data:` URI."""
     if not isinstance(uri, str):
         note(f"{key} must be text, not {plain(json.dumps(uri))[:60]}")
         return None

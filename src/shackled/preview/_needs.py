@@ -1,7 +1,5 @@
 """What files of a token need that a token does not have: files from outside, and what marketplaces leave out."""
 
-from __future__ import annotations
-
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
@@ -160,7 +158,6 @@ def _inside(uri: str) -> list[Element]:
 
 
 def _of_svg(root: ElementTree.Element) -> list[Element]:
-    """Return the elements of an SVG."""
     return [
         Element(_local(each.tag), {_local(name): value for name, value in each.attrib.items()}, each.text or "")
         for each in root.iter()

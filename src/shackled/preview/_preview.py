@@ -1,7 +1,5 @@
 """One preview: the contract as its sources are now, and its tokens."""
 
-from __future__ import annotations
-
 import os
 import re
 from collections.abc import Generator, Mapping, Sequence

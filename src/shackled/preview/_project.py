@@ -1,7 +1,5 @@
 """The project of a contract: its folder, its compiler, and what the compiler makes of one file."""
 
-from __future__ import annotations
-
 import json
 import os
 import re
@@ -36,7 +34,6 @@ class CompilerError(InputError):
     """A source does not compile. said: what the compiler says, in lines."""
 
     def __init__(self, source: Path, said: str) -> None:
-        """Take the source and the words of the compiler."""
         super().__init__(f"{source.name} does not compile")
         self.said = said
 
@@ -128,7 +125,6 @@ class Project:
         return self._current(found, "forge", output, "run `forge build --force`, and mend what it reports")
 
     def _by_hardhat(self) -> list[Compiled]:
-        """Compile with Hardhat."""
         absent = f"{self.root} is a project of Hardhat, but it is not installed: run npm install there"
         self._run_compiler([self._command(absent, "hardhat"), "compile"])
         output = self.root / "artifacts"

@@ -1,7 +1,5 @@
 """The page of the preview, which follows the sources: each save compiles, deploys and draws again."""
 
-from __future__ import annotations
-
 import json
 import re
 import time
@@ -39,7 +37,6 @@ class Live:
     """The state that the page shows, and the pages that listen to its changes."""
 
     def __init__(self, project: Project, request: Request) -> None:
-        """Take what is previewed; `follow` begins."""
         self.project, self.request = project, request
         self.version = 0
         #: The newest of each token, by its number, with the version in which it was read.

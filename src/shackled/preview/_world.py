@@ -1,7 +1,5 @@
 """An EVM that has the contracts of the package and the author's, with what the author's calls have changed."""
 
-from __future__ import annotations
-
 import re
 import threading
 import time
@@ -9,11 +7,10 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from itertools import count
 
-from .._load import is_model, load, locate
+from .._load import locate
 from ..artifacts import known_errors
 from ..chain._embedded import RevmChain
 from ..chain._failures import describe_revert
-from ..datasets._pieces import Piece
 from ..deploy._contract import CONTRACTS, deployments
 from ..errors import InputError
 from ..ethereum._abi import Errors, error_table
@@ -22,7 +19,7 @@ from ..evm._instance import Answer, Instance, Status
 from ..scene._decode import read_call
 from ..scene._scene import Scene
 from ..studio._storage import STUDIO, store_scene
-from ..tokens._icons import token_scene
+from ..tokens._icons import scene_to_store
 from ._arguments import Call, constructor_arguments, contract_of
 from ._project import Compiled
 
@@ -155,10 +152,7 @@ def stored_scene(input: str) -> dict[bytes, bytes]:
 
     input: a piece of a dataset, a mesh or a scene file. The scene is that of `shackled store`.
     """
-    source = locate(input)
-    is_mesh = is_model(source)
-    thing = token_scene(source) if isinstance(source, Piece) else source
-    scene = load(thing, antialias=False if is_mesh else None)
+    scene = scene_to_store(locate(input))
     return {each.pointer: each.code for each in store_scene(scene, deployments([STUDIO])[-1].address)}
 
 

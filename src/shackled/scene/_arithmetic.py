@@ -5,23 +5,19 @@ Rotations are quaternions (x, y, z, w); the identity is (0, 0, 0, 1).
 NumPy's `@` and `norm` leave the order of sums to BLAS, and sines to the C library or the processor.
 """
 
-from __future__ import annotations
-
 import math
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
 from ..base.checks import Floats, number, vector
 from ..errors import InputError
-
-Array = NDArray[np.float64]
 
 #: Bits after the point of a series.
 BITS = 106
 
 
-def dot(a: Array, b: Array) -> Array:
+def dot(a: Floats, b: Floats) -> Floats:
     """Return the scalar product along the last axis, summed from its first element to its last."""
     products = a * b
     total = products[..., 0]
@@ -30,36 +26,34 @@ def dot(a: Array, b: Array) -> Array:
     return np.asarray(total)
 
 
-def cross(a: Array, b: Array) -> Array:
+def cross(a: Floats, b: Floats) -> Floats:
     """Return the vector products of vectors, (3,) or (n, 3); for few of them faster than `np.cross`, which is equal."""
     (ax, ay, az), (bx, by, bz) = a.T, b.T
     return np.stack([ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx], axis=-1)
 
 
-def length(v: Array) -> Array:
+def length(v: Floats) -> Floats:
     """Return the length along the last axis; infinite where a square is beyond what a float holds."""
     return np.asarray(np.sqrt(dot(v, v)))
 
 
-def unit(v: Array) -> Array:
+def unit(v: Floats) -> Floats:
     """Return a vector, (n,), of any length but zero, as one of length 1."""
     v = v / np.abs(v).max()
     return np.asarray(v / length(v))
 
 
-def units(v: Array) -> Array:
+def units(v: Floats) -> Floats:
     """Return vectors, (..., n), as ones of length 1; those without a length are zero."""
     lengths = length(v)[..., None]
     return np.asarray(np.divide(v, lengths, out=np.zeros_like(v), where=lengths > 0))
 
 
 def cosine(degrees: float) -> float:
-    """Return the cosine of an angle."""
     return _series(degrees)[0] / (1 << BITS)
 
 
 def sine(degrees: float) -> float:
-    """Return the sine of an angle."""
     return _series(degrees)[1] / (1 << BITS)
 
 
@@ -88,19 +82,19 @@ IDENTITY = vector((0, 0, 0, 1), size=4)
 ORTHOGONAL = 1e-6
 
 
-def from_euler(degrees: ArrayLike) -> Array:
+def from_euler(degrees: ArrayLike) -> Floats:
     """Return the rotation about the x, y, then z axis of the world, counter-clockwise seen from its end, in degrees."""
     angles = vector(degrees, "a rotation in degrees")
     x, y, z = (from_axis_angle(axis, angle) for axis, angle in zip(np.eye(3), angles, strict=True))
     return multiply(z, multiply(y, x))
 
 
-def euler(x: float, y: float, z: float) -> Array:
+def euler(x: float, y: float, z: float) -> Floats:
     """Return the rotation about the x, then the y, then the z axis of the world, each in degrees, as a quaternion."""
     return from_euler((x, y, z))
 
 
-def from_axis_angle(axis: ArrayLike, degrees: float) -> Array:
+def from_axis_angle(axis: ArrayLike, degrees: float) -> Floats:
     """Return the rotation about an axis of any length but zero, counter-clockwise seen from where the axis points."""
     direction = vector(axis, "the axis of a rotation")
     if not direction.any():
@@ -110,20 +104,20 @@ def from_axis_angle(axis: ArrayLike, degrees: float) -> Array:
     return np.append(unit(direction) * sine(half), cosine(half))
 
 
-def multiply(second: ArrayLike, first: ArrayLike) -> Array:
+def multiply(second: ArrayLike, first: ArrayLike) -> Floats:
     """Return the rotation `first`, followed by `second`."""
     a, b = np.asarray(second, dtype=np.float64), np.asarray(first, dtype=np.float64)
     return np.append(a[3] * b[:3] + b[3] * a[:3] + np.cross(a[:3], b[:3]), a[3] * b[3] - dot(a[:3], b[:3]))
 
 
-def rotate(quaternion: ArrayLike, points: ArrayLike) -> Array:
+def rotate(quaternion: ArrayLike, points: ArrayLike) -> Floats:
     """Return the points, (3,) or (n, 3), turned by a quaternion of any length but zero."""
     q, p = unit(_rotation(quaternion)), np.asarray(points, dtype=np.float64)
     t = 2 * cross(q[:3], p)
     return np.asarray(p + q[3] * t + cross(q[:3], t))
 
 
-def matrix_of(value: ArrayLike, size: int, name: str) -> Array:
+def matrix_of(value: ArrayLike, size: int, name: str) -> Floats:
     """Return a square matrix of `size` rows of finite floats. InputError for anything else."""
     try:
         matrix = np.array(value, dtype=np.float64)
@@ -134,7 +128,7 @@ def matrix_of(value: ArrayLike, size: int, name: str) -> Array:
     return matrix
 
 
-def quaternion_of(m: Array) -> Array:
+def quaternion_of(m: Floats) -> Floats:
     """Return the rotation of a matrix, (3, 3). InputError unless its columns are a right-handed orthonormal basis."""
     if np.abs(m.T @ m - np.eye(3)).max() > ORTHOGONAL or np.linalg.det(m) < 0:
         raise InputError("the matrix of a rotation must have unit columns at right angles, and must not mirror")
@@ -145,7 +139,7 @@ def quaternion_of(m: Array) -> Array:
     squares[3, :3] = squares[:3, 3] = (m[2, 1] - m[1, 2], m[0, 2] - m[2, 0], m[1, 0] - m[0, 1])
     squares[3, 3] = 1 + trace
     largest = squares[:, np.argmax(np.diag(squares))]
-    quaternion: Array = largest / length(largest)
+    quaternion: Floats = largest / length(largest)
     return quaternion if quaternion[3] >= 0 else -quaternion
 
 

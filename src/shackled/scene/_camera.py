@@ -62,7 +62,6 @@ class Camera(Value):
     near: float | None = field(default=None, converter=optional_number)
 
     def __attrs_post_init__(self) -> None:
-        """Check the lengths, whose ranges depend on the projection."""
         perspective = self.projection == "perspective"
         low, high = (2**-10, 2**10) if perspective else (1e-30, 1e30)
         number(self.half_height, "the camera's half_height", low, high)

@@ -1,10 +1,7 @@
 """Scenes with the triangles that their canvas can show."""
 
-from __future__ import annotations
-
 import numpy as np
 from attrs import evolve
-from numpy.typing import NDArray
 
 from ..errors import warn
 from ._arithmetic import dot, length, unit, units
@@ -12,8 +9,6 @@ from ._mesh import Mesh, face_normals, weld, without_slivers
 from ._object import Object
 from ._scene import Scene
 from ._simplify import NEEDED, collapsed, is_possible
-
-Floats = NDArray[np.float64]
 
 #: Scenes of more triangles are simplified: one for so many pixels of the canvas, or this number if that is more.
 PIXELS, FEWEST = 8, 4096

@@ -4,22 +4,16 @@ At which angle between faces an edge is a crease depends on the shape of the con
 angle suits all: the edge of a chamfer is a trait of the shape, one of the same angle in a coarse scan is not.
 """
 
-from __future__ import annotations
-
 import numpy as np
 from attrs import evolve
-from numpy.typing import NDArray
 
+from ..base.checks import Flags, Floats, Ints
 from . import _constants as constant
 from ._arithmetic import cosine, dot, length, units
 from ._fields import Shading
 from ._mesh import Mesh, components, face_normals, weld
 from ._object import Object
 from ._winding import against
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
-Flags = NDArray[np.bool_]
 
 #: Where edges are smooth, by shape.
 _ANGLES = (constant.SOLID, constant.FIGURE, constant.FACETS)

@@ -1,7 +1,5 @@
 """Scenes from calldata: the inverse of `_codec`, for untrusted bytes."""
 
-from __future__ import annotations
-
 import math
 import struct
 from collections.abc import Mapping
@@ -155,7 +153,6 @@ def _object(words: _Words, where: str) -> Object:
 
 
 def _records(data: bytes) -> Records:
-    """Return the records of the extensions."""
     records = {}
     place = 0
     while place < len(data):

@@ -3,8 +3,6 @@
 `Scene.extensions` has a record for each effect. Scenes with any of them are antialiased.
 """
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from typing import Any, TypeVar
 
@@ -56,7 +54,6 @@ class Fog:
     far: float = field(converter=number)
 
     def __attrs_post_init__(self) -> None:
-        """Check the distances against each other."""
         if self.near >= self.far:
             raise InputError(
                 f"the near distance of the fog, {self.near:g}, must be below its far distance, {self.far:g}"
@@ -130,5 +127,4 @@ def fog_or_color(value: Any, name: str) -> Fog | Color | None:
 
 
 def tone_of(value: Tone | None) -> Tone | None:
-    """Return a tone, or None."""
     return None if value is None else instance(value, "the tone of a scene", Tone)

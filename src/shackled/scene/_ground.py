@@ -54,7 +54,6 @@ class Ground:
     inner: float | None = field(default=None, converter=optional_number)
 
     def __attrs_post_init__(self) -> None:
-        """Check the radii."""
         if self.radius == 0:
             raise InputError("the radius of a ground must be above 0")
         if self.radius is not None and self.inner is not None:

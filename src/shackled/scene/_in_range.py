@@ -8,15 +8,13 @@ more bytes per vertex, where a step would be visible. Objects with more vertices
 divided last, so that their parts have one grid.
 """
 
-from __future__ import annotations
-
 import math
 from collections.abc import Iterator
 
 import numpy as np
 from attrs import evolve
-from numpy.typing import NDArray
 
+from ..base.checks import Floats, Ints
 from ..errors import InputError
 from . import _constants as constant
 from ._arithmetic import dot, length, rotate, unit
@@ -26,8 +24,6 @@ from ._mesh import MAX_FACES, MAX_VERTICES, part_of_faces, vertex_normals
 from ._object import Object
 from ._packed import MAX_SHORT, MAX_WIDE, bits_of
 from ._scene import Scene
-
-Array = NDArray[np.float64]
 
 #: A mesh of so many bits a coordinate must not be scaled by more; one of other coordinates is quantized.
 MAX_SCALE = {16: constant.MAX_SCALE_SHORT, 24: constant.MAX_SCALE_WIDE, None: -1.0}
@@ -185,7 +181,7 @@ def near_plane(scene: Scene, factor: float = 1.0, most: float = math.inf) -> flo
     return max(min(farthest * factor * constant.NEAR_PART, most), constant.STEP) if farthest else 1.0
 
 
-def _move_light(light: Light, eye: Array, factor: float) -> Light:
+def _move_light(light: Light, eye: Floats, factor: float) -> Light:
     place = (light.vector - eye) * factor
     # a light so far away keeps its direction
     largest = float(np.abs(place).max())
@@ -222,13 +218,13 @@ def _steps(o: Object, radius: float, scene: Scene, factor: float, near: float) -
     return int(min(max(math.sqrt(size * factor / constant.STEP), MAX_SHORT), MAX_WIDE))
 
 
-def _box(positions: Array) -> tuple[Array, float]:
+def _box(positions: Floats) -> tuple[Floats, float]:
     """Return the middle of the bounding box, and the largest distance from it along an axis."""
     low, high = positions.min(axis=0) / 2, positions.max(axis=0) / 2
     return low + high, float((high - low).max())
 
 
-def _direction(v: Array) -> Array:
+def _direction(v: Floats) -> Floats:
     low, high = constant.DIRECTION_LENGTHS
     return v if low <= np.abs(v).max() <= high else unit(v)
 
@@ -243,7 +239,7 @@ def divided(o: Object) -> list[Object]:
     return [evolve(o, mesh=part_of_faces(mesh, faces)) for faces in _runs(mesh.faces)]
 
 
-def _runs(faces: NDArray[np.int64]) -> Iterator[NDArray[np.int64]]:
+def _runs(faces: Ints) -> Iterator[Ints]:
     while len(faces):
         run = faces[:MAX_FACES]
         # where each vertex is named first: the run ends before the one that is too many

@@ -66,7 +66,6 @@ class Light(Value):
     shadow: bool = field(default=USUAL, converter=flag)
 
     def __attrs_post_init__(self) -> None:
-        """Check the fields against one another."""
         if self.kind == "directional" and not self.vector.any():
             raise InputError("the direction of a light must not be zero")
         if self.kind != "spot":

@@ -9,7 +9,7 @@ import numpy as np
 from attrs import field, frozen
 from numpy.typing import ArrayLike, NDArray
 
-from ..base.checks import Floats, Number, channels, fixed, rgba
+from ..base.checks import Floats, Ints, Number, channels, fixed, rgba
 from ..base.synonyms import with_synonyms
 from ..base.values import Value, checked, plural, with_names
 from ..errors import InputError
@@ -50,7 +50,7 @@ def _optional_table(values: ArrayLike | None, name: str = "a table", width: int 
     return None if values is None else _table(values, name, width)
 
 
-def _faces(values: ArrayLike) -> NDArray[np.int64]:
+def _faces(values: ArrayLike) -> Ints:
     name = "the faces of a mesh"
     if not isinstance(values, np.ndarray) or values.dtype != np.int64:
         values = _floats(values, name, "rows of 3 numbers")
@@ -127,7 +127,7 @@ class Mesh(Value):
     """
 
     positions: Floats = field(converter=_table, metadata=checked("the positions of a mesh"))
-    faces: NDArray[np.int64] = field(converter=_faces)
+    faces: Ints = field(converter=_faces)
     colors: NDArray[np.uint8] = field(default=None, converter=_colors)
     normals: Floats | None = field(default=None, converter=_optional_table, metadata=checked("the normals of a mesh"))
     uvs: Floats | None = field(
@@ -138,7 +138,6 @@ class Mesh(Value):
     opacities: Floats | None = field(default=None, converter=_opacities)
 
     def __attrs_post_init__(self) -> None:
-        """Check the fields against one another."""
         count = len(self.positions)
         if count == 0 or len(self.faces) == 0:
             raise InputError(f"a mesh needs vertices and faces; this one has {count} and {len(self.faces)}")
@@ -202,23 +201,22 @@ class Mesh(Value):
         return len(self.faces)
 
     def __repr__(self) -> str:
-        """Count in one line."""
         vertices = plural(len(self.positions), "vertex", "vertices")
         return f"<Mesh {vertices}, {plural(self.triangles, 'triangle')}>"
 
 
-def proper(faces: NDArray[np.int64]) -> NDArray[np.int64]:
+def proper(faces: Ints) -> Ints:
     """Return the numbers of the faces, (m, 3), that have three different vertices."""
     a, b, c = faces.T
     return np.flatnonzero((a != b) & (b != c) & (c != a))
 
 
-def without_slivers(faces: NDArray[np.int64]) -> NDArray[np.int64]:
+def without_slivers(faces: Ints) -> Ints:
     """Return the faces, (m, 3), that have three different vertices."""
     return faces[proper(faces)]
 
 
-def faces_of_all(meshes: Iterable[Mesh]) -> NDArray[np.int64]:
+def faces_of_all(meshes: Iterable[Mesh]) -> Ints:
     """Return the faces of several meshes, (m, 3), whose vertices are numbered one mesh after the other."""
     begin, faces = 0, [np.empty((0, 3), np.int64)]
     for mesh in meshes:
@@ -227,14 +225,14 @@ def faces_of_all(meshes: Iterable[Mesh]) -> NDArray[np.int64]:
     return np.concatenate(faces)
 
 
-def part_of_faces(mesh: Mesh, faces: NDArray[np.int64]) -> Mesh:
+def part_of_faces(mesh: Mesh, faces: Ints) -> Mesh:
     """Return some faces, (k, 3), of a mesh, with the vertices that they use."""
     used, corners = np.unique(faces, return_inverse=True)
     normals, uvs = (None if each is None else each[used] for each in (mesh.normals, mesh.uvs))
     return Mesh(mesh.positions[used], corners.reshape(-1, 3), mesh.rgba[used], normals, uvs)
 
 
-def components(links: NDArray[np.int64], count: int) -> NDArray[np.int64]:
+def components(links: Ints, count: int) -> Ints:
     """Return, for each of `count` vertices, the least number among those that links connect it with, (count,).
 
     links: (n, k) int, the numbers of k vertices that are connected, such as the faces of a mesh.
@@ -253,13 +251,13 @@ def components(links: NDArray[np.int64], count: int) -> NDArray[np.int64]:
         label = new
 
 
-def face_normals(corners: NDArray[np.float64]) -> NDArray[np.float64]:
+def face_normals(corners: Floats) -> Floats:
     """Return the normals of faces, whose length is twice their area, (m, 3). corners: (m, 3, 3)."""
     a, b, c = corners.transpose(1, 0, 2)
     return np.cross(b - a, c - a)
 
 
-def vertex_normals(positions: NDArray[np.float64], faces: NDArray[np.int64]) -> NDArray[np.float64]:
+def vertex_normals(positions: Floats, faces: Ints) -> Floats:
     """Return unit normals, (n, 3): the mean of the faces around each vertex, weighted by area; zero where none are."""
     normals, each = np.zeros_like(positions), face_normals(positions[faces])
     for corner in range(3):
@@ -302,6 +300,5 @@ def weld(
 
 
 def is_trimesh(value: object) -> bool:
-    """Return whether a value is an object of trimesh."""
     # its arrays are its own, too
     return type(value).__module__.partition(".")[0] == "trimesh" and not isinstance(value, np.ndarray)

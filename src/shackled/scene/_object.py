@@ -116,7 +116,6 @@ class Object(Value):
     two_sided: bool = field(default=USUAL, converter=flag)
 
     def __attrs_post_init__(self) -> None:
-        """Check that a texture has its coordinates."""
         if self.material.texture is not None and self.mesh.uvs is None:
             raise InputError("a material with a texture needs a mesh with uvs, the texture coordinates of its vertices")
 

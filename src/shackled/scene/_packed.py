@@ -1,7 +1,5 @@
 """Packed meshes and textures, in the formats of contracts/src/scene/Mesh.sol and effects/EffectRecords.sol."""
 
-from __future__ import annotations
-
 import struct
 
 import numpy as np
@@ -67,21 +65,21 @@ def unpack(packed: bytes) -> Mesh:
     return Mesh(positions, corners, np.array(rows[:, 3 * size : 3 * size + 3]), normals)
 
 
-def bits_of(positions: NDArray[np.float64]) -> int | None:
+def bits_of(positions: Floats) -> int | None:
     """Return how many bits each coordinate takes in a packed mesh, 16 or 24; None if one is no such whole number."""
     low, high = positions.min(), positions.max()
     sizes = [bits for bits, most in ((16, MAX_SHORT), (24, MAX_WIDE)) if -most - 1 <= low and high <= most]
     return sizes[0] if sizes and (positions % 1 == 0).all() else None
 
 
-def _pack_normals(normals: NDArray[np.float64]) -> NDArray[np.uint8]:
+def _pack_normals(normals: Floats) -> NDArray[np.uint8]:
     """Return unit vectors, (n, 3), as (n, 4) bytes: three numbers of 10 bits, then two zero bits."""
     x, y, z = (np.rint(normals * NORMAL_UNIT).astype(np.int64) & 1023).T
     words = np.asarray(x << 22 | y << 12 | z << 2, dtype=">u4")
     return words.view(np.uint8).reshape(-1, 4)
 
 
-def _unpack_normals(octets: NDArray[np.uint8]) -> NDArray[np.float64]:
+def _unpack_normals(octets: NDArray[np.uint8]) -> Floats:
     """Return vectors, (n, 3), that `_pack_normals` rounds to the same numbers, although it makes them unit vectors.
 
     Those do not always round to themselves at a length of exactly `NORMAL_UNIT`. Between them and a corner of the cube

@@ -2,8 +2,6 @@
 culling, camera, size, effects and ground as they are.
 """
 
-from __future__ import annotations
-
 import tomllib
 from collections.abc import Iterable, Mapping
 from importlib.resources import files

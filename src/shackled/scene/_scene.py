@@ -1,7 +1,5 @@
 """Scenes: objects, camera, lights, background and size."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Iterable
 from pathlib import Path
@@ -134,7 +132,6 @@ class Scene(Hinted):
         write_output(check_output_file(path, "scene"), self.encode())
 
     def __repr__(self) -> str:
-        """Count in one line."""
         return (
             f"<Scene {self.width}x{self.height}, {plural(len(self.objects), 'object')}, "
             f"{plural(self.triangles, 'triangle')}, {plural(len(self.lights), 'light')}>"

@@ -1,7 +1,5 @@
 """The settings of the look of a picture: one table of them, for Python, the command line and scene files."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Callable, Collection, Mapping, Sequence
 from typing import Any, Final, Literal, TypedDict
@@ -14,17 +12,7 @@ from ..base.synonyms import hint, understood
 from ..errors import InputError, KeywordError
 from ._arithmetic import IDENTITY, multiply, rotation_of
 from ._camera import Camera
-from ._effects import (
-    NONE,
-    Background,
-    Fog,
-    Hemisphere,
-    Rim,
-    background_of,
-    fog_or_color,
-    hemisphere_of,
-    rim_of,
-)
+from ._effects import NONE, Background, Fog, Hemisphere, Rim, background_of, fog_or_color, hemisphere_of, rim_of
 from ._fields import FIELDS, Axis, Shading
 from ._ground import Ground, ground_of
 from ._light import Light, lights_of

@@ -10,7 +10,7 @@ import numpy as np
 from attrs import evolve
 from numpy.typing import NDArray
 
-from ..base.checks import whole
+from ..base.checks import Floats, Ints, whole
 from ..errors import InputError
 from ._crease import smoothed
 from ._mesh import Mesh, components, proper, weld
@@ -75,13 +75,13 @@ class _Surface:
     places: (m, 3), numbers that corners have in common which are one point of the texture.
     """
 
-    positions: NDArray[np.float64]
-    faces: NDArray[np.int64]
+    positions: Floats
+    faces: Ints
     colors: NDArray[np.uint8]
-    uvs: NDArray[np.float64]
-    places: NDArray[np.int64]
+    uvs: Floats
+    places: Ints
 
-    def part(self, faces: NDArray[np.int64], kept: NDArray[np.int64]) -> _Surface:
+    def part(self, faces: Ints, kept: Ints) -> _Surface:
         """Return the surface with other vertex numbers, (m, 3), and only those faces that are kept."""
         return replace(self, faces=faces[kept], uvs=self.uvs[kept], places=self.places[kept])
 
@@ -124,8 +124,8 @@ def _collapse(surface: _Surface, target: int, agg: int) -> _Surface:
 
 
 def collapsed(
-    positions: NDArray[np.float64], faces: NDArray[np.int64], target: int, agg: int, keep_borders: bool = False
-) -> tuple[NDArray[np.float64], NDArray[np.int64], NDArray[np.int64]]:
+    positions: Floats, faces: Ints, target: int, agg: int, keep_borders: bool = False
+) -> tuple[Floats, Ints, Ints]:
     """Return the points, (k, 3), that remain when edges are collapsed until `target` faces are left, or `agg` allows no
     more; which of them each old vertex became, (n,), -1 for none; and the old vertex that is nearest to each, (k,).
 
@@ -148,7 +148,7 @@ def collapsed(
     return points, number, nearest
 
 
-def _on_texture(surface: _Surface, moved: NDArray[np.int64], distance: NDArray[np.float64]) -> _Surface:
+def _on_texture(surface: _Surface, moved: Ints, distance: Floats) -> _Surface:
     """Return the surface with the texture coordinates after a collapse to vertices, (m, 3), at distances, (n,).
 
     Points of the texture between which an edge was collapsed are one: that nearest to the new vertex. So both sides of

@@ -1,7 +1,5 @@
 """Cameras, lights and backgrounds for meshes that have none: all of a mesh in the picture, seen from a little above."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping, Sequence
 from typing import Any
@@ -114,7 +112,7 @@ MESH_STAGING = Staging(
 )
 
 
-def staged(points: NDArray[np.float64], width: int, height: int) -> tuple[Camera, tuple[Light], Background]:
+def staged(points: Floats, width: int, height: int) -> tuple[Camera, tuple[Light], Background]:
     """Return the camera, light and background with which points of the world, (n, 3), fill a picture. InputError
     where a float does not hold them, or the camera.
     """
@@ -129,7 +127,6 @@ def staged(points: NDArray[np.float64], width: int, height: int) -> tuple[Camera
 
 
 def painted(mesh: Mesh, color: ArrayLike | str) -> Mesh:
-    """Return the mesh in one colour."""
     return evolve(mesh, colors=checks.color(color, "the colour of a mesh"))
 
 
@@ -138,7 +135,7 @@ def painted_object(o: Object, color: ArrayLike | str) -> Object:
     return evolve(o, mesh=painted(o.mesh, color), material=evolve(o.material, texture=None))
 
 
-def frame(points: NDArray[np.float64], view: Viewpoint) -> Camera:
+def frame(points: Floats, view: Viewpoint) -> Camera:
     """Return the camera of a view, as near as all points, (n, 3), fit the picture."""
     right, up, back = view_axes(view.azimuth, view.elevation)
     x, y, z = dot(points, right), dot(points, up), dot(points, back)
@@ -185,7 +182,7 @@ def toward_viewer(view: Viewpoint, direction: tuple[float, float, float] = KEY_L
     return Light("directional", dot(np.array(direction), axes), color)
 
 
-def view_axes(azimuth: float, elevation: float) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+def view_axes(azimuth: float, elevation: float) -> tuple[Floats, Floats, Floats]:
     """Return unit vectors to the right, upward, and toward a viewer, of angles in degrees."""
     right = np.array([cosine(azimuth), 0, -sine(azimuth)])
     level = cosine(elevation)

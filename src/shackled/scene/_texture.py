@@ -15,7 +15,7 @@ from attrs import field, frozen
 from numpy.typing import ArrayLike, NDArray
 from PIL import Image
 
-from ..base.checks import choice, fixed, whole
+from ..base.checks import Floats, choice, fixed, whole
 from ..base.values import Value
 from ..errors import InputError
 from ._fields import FIELDS, Filter, Wrap
@@ -81,7 +81,6 @@ class Texture(Value):
     cutoff: int = field(default=USUAL, converter=whole)
 
     def __attrs_post_init__(self) -> None:
-        """Check that there is an alpha for each texel."""
         shape = self.pixels.shape[:2]
         if self.alpha is not None and self.alpha.shape != shape:
             raise InputError(f"the alpha of a texture must be of shape {shape}, as its pixels, not {self.alpha.shape}")
@@ -129,7 +128,6 @@ class Texture(Value):
         return int(self.pixels.shape[0])
 
     def __repr__(self) -> str:
-        """Count in one line."""
         return f"<Texture {self.width}x{self.height}, {self.filter}, {self.wrap}>"
 
 
@@ -197,7 +195,7 @@ def as_rgb(image: Image.Image) -> Image.Image:
     parts = [slice(row, row + _ROWS) for row in range(0, image.height, _ROWS)]
     grey = np.asarray(image)
 
-    def levels(part: slice) -> NDArray[np.float64]:
+    def levels(part: slice) -> Floats:
         return np.nan_to_num(grey[part].astype(np.float64))
 
     scale = 1.0
@@ -227,7 +225,7 @@ def reduced(image: Image.Image, side: int = MAX_TEXTURE_SIDE) -> Image.Image:
     return image.resize((width, height), Image.Resampling.LANCZOS)
 
 
-def to_bytes(colors: ArrayLike, largest: float | None = None) -> NDArray[np.float64]:
+def to_bytes(colors: ArrayLike, largest: float | None = None) -> Floats:
     """Return colours with channels 0..`largest` as whole numbers 0..255.
 
     colors: (..., n). Without `largest` it is taken to be 1 where no channel is above 1, and 255 otherwise.
@@ -243,14 +241,14 @@ def to_bytes(colors: ArrayLike, largest: float | None = None) -> NDArray[np.floa
     return np.rint(np.clip(channels, 0, largest) * (255 / largest))
 
 
-def to_srgb(linear: ArrayLike) -> NDArray[np.float64]:
+def to_srgb(linear: ArrayLike) -> Floats:
     """Return linear colours 0..1 as whole numbers 0..255, encoded as sRGB."""
     values = np.clip(np.asarray(linear, dtype=np.float64), 0, 1)
     encoded = np.where(values <= 0.0031308, 12.92 * values, 1.055 * values ** (1 / 2.4) - 0.055)
     return np.asarray(np.rint(255 * encoded))
 
 
-def sample(image: Image.Image, coordinates: ArrayLike) -> NDArray[np.float64]:
+def sample(image: Image.Image, coordinates: ArrayLike) -> Floats:
     """Return the colours of an image, (n, 3), 0..255, interpolated between the nearest four texels.
 
     coordinates: (n, 2) float, from the bottom left (0, 0) to the top right (1, 1); outside of it the image repeats.

@@ -1,19 +1,15 @@
 """Rotation of scenes about their centre."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np
 from attrs import evolve
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from ..base.checks import whole
+from ..base.checks import Floats, whole
 from ._arithmetic import dot, length, multiply, rotate, rotation_of
 from ._camera import Camera
 from ._scene import Scene
-
-Points = NDArray[np.float64]
 
 MOST_FRAMES = 720
 #: The share of the half width and half height of the picture that may be filled.
@@ -49,12 +45,12 @@ def frame_count(frames: float, whose: str) -> int:
     return whole(frames, f"the number of frames of {whose}", 2, MOST_FRAMES)
 
 
-def middle(scene: Scene) -> Points:
+def middle(scene: Scene) -> Floats:
     """Return the middle of the box around all objects."""
     return np.asarray(scene.bounds.mean(axis=0))
 
 
-def _holding(camera: Camera, turned: Sequence[Points], aspect: float) -> Camera:
+def _holding(camera: Camera, turned: Sequence[Floats], aspect: float) -> Camera:
     """Return the camera, so far back that all points are in the picture, with a margin unless the first have none."""
     forward = camera.target - camera.eye
     right = np.cross(forward, camera.up)
@@ -65,7 +61,7 @@ def _holding(camera: Camera, turned: Sequence[Points], aspect: float) -> Camera:
     axes = right / aspect, np.cross(right, forward), forward
     perspective = camera.projection == "perspective"
 
-    def reach(points: Points) -> tuple[Points, Points]:
+    def reach(points: Floats) -> tuple[Floats, Floats]:
         """Return how far points are beside the line of sight, in halves of the picture at distance 1, and how deep."""
         x, y, z = (dot(points - camera.eye, axis) for axis in axes)
         return np.maximum(np.abs(x), np.abs(y)) / camera.half_height, z if perspective else np.ones_like(z)

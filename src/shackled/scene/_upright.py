@@ -1,14 +1,12 @@
 """Which axis of a model points up: y, as in glTF and most programs of animation, or z, as in CAD."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
-from ..base.checks import Floats, vector
+from ..base.checks import Floats, Ints, vector
 from ..errors import InputError, warn
 from ._arithmetic import from_euler, unit
 from ._fields import AXES, Axis
@@ -71,7 +69,7 @@ def axis_of_file(path: Path, parts: Sequence[MeshPart]) -> Axis:
 
 
 @np.errstate(all="ignore")
-def _rests_along_z(positions: NDArray[np.float64]) -> bool:
+def _rests_along_z(positions: Floats) -> bool:
     """Return whether a model would rest on its lower end along z much better than on either end along y, or is a tall
     box along z. Reliefs and letters, which face the viewer, are flatter.
     """
@@ -88,7 +86,7 @@ def _rests_along_z(positions: NDArray[np.float64]) -> bool:
     return along_z >= _REST and (along_z >= _BETTER * along_y or bool(sizes[2] >= _TALL * sizes[:2].max()))
 
 
-def base_axis(positions: NDArray[np.float64], faces: NDArray[np.int64]) -> Axis | None:
+def base_axis(positions: Floats, faces: Ints) -> Axis | None:
     """Return the axis along which a model stands on a flat base, if it does so along one of y and z only."""
     sizes = np.ptp(positions, axis=0)
     if not 0 < sizes.max() < np.inf:

@@ -1,23 +1,17 @@
 """Which side of faces is the front: closed parts that are wound inside out are turned, and closed parts are culled."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 
 import numpy as np
 from attrs import evolve
-from numpy.typing import NDArray
 
+from ..base.checks import Flags, Floats, Ints
 from ..base.values import plural
 from ..errors import warn
 from . import _constants as constant
 from ._arithmetic import dot
 from ._mesh import Mesh, components, face_normals, faces_of_all, part_of_faces
 from ._object import Object
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
-Flags = NDArray[np.bool_]
 
 
 def wound(objects: Sequence[Object], name: str, split: bool) -> list[Object]:

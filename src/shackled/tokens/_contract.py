@@ -1,7 +1,5 @@
 """A contract on a chain: calls through its ABI, transactions that are checked and quoted first, errors and events."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Iterable
 from contextlib import suppress
 from typing import Any
@@ -41,7 +39,6 @@ class Contract:
     """A contract of this package at an address."""
 
     def __init__(self, connection: Connection, name: str, address: str) -> None:
-        """Take the name of the artifact and the address; nothing is sent yet."""
         self.name, self.connection, self.address = name, connection, address
         self.place = bytes.fromhex(address.removeprefix("0x"))
         self.interface = artifact(name).interface

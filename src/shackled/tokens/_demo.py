@@ -117,7 +117,6 @@ class Demo:
         return collection
 
     def _deploy(self, name: str) -> Collection:
-        """Deploy a collection and what it needs."""
         kind, owner = KINDS[name], self.users[0]
         self.report(f"{kind.title} is deployed")
         # a new address, so that the demonstration can be repeated on the same node
@@ -126,7 +125,6 @@ class Demo:
         return launch(plan, owner, self._paid)[0]
 
     def _pay(self, name: str, user: Transactor, call: Call) -> Receipt:
-        """Send a transaction, and report its gas."""
         receipt = perform(user, call)
         self._paid(name, user.address, receipt)
         return receipt

@@ -1,7 +1,5 @@
 """The icons of a collection, each with a stored scene, a price and a supply; and the licences of what is stored."""
 
-from __future__ import annotations
-
 import json
 import re
 from collections.abc import Mapping, Sequence
@@ -9,10 +7,11 @@ from dataclasses import dataclass, replace
 from functools import cache, partial
 from importlib.resources import files
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
 
 from attrs import evolve
 
+from .._load import is_model, load
 from ..artifacts import artifact
 from ..base.checks import whole
 from ..chain._connection import read_all
@@ -81,7 +80,6 @@ def icon_at(collection: Collection, number: int) -> CollectionIcon:
 
 
 def icons_of(collection: Collection) -> list[CollectionIcon]:
-    """Return all icons of a collection."""
     return list(read_all(partial(icon_at, collection), range(collection.contract.call("iconCount"))))
 
 
@@ -126,6 +124,16 @@ def token_scene(piece: Piece) -> Scene:
     antialiased.json lists these pieces; `python -m benchmarks.icons` writes it.
     """
     return evolve(piece.make(), antialias=True) if piece.name in _antialiased() else piece.make()
+
+
+def scene_to_store(
+    source: Path | Piece | Link, size: tuple[int, int] | None = None, max_triangles: int | Literal["all"] | None = None
+) -> Scene:
+    """Return the scene that is stored of a piece, a mesh or a scene file. size, max_triangles: as in `load`."""
+    # a token is drawn by nodes of all kinds, of which many allow a call too little gas for antialiased meshes
+    antialias = False if is_model(source) else None
+    thing = (token_scene(source) if size is None else source.make()) if isinstance(source, Piece) else source
+    return load(thing, size, max_triangles=max_triangles, antialias=antialias)
 
 
 @cache

@@ -1,7 +1,5 @@
 """Deployment of a collection, of the contracts that it calls, and its setup before the sale; its immutable values."""
 
-from __future__ import annotations
-
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -14,7 +12,7 @@ from ..deploy._deployer import Deployer, Plan, create
 from ..deploy._quote import Call, Fees, Quote, current_fees, make_quotes
 from ..deploy._transactor import Receipt, Transactor
 from ..errors import InputError, VerificationError
-from ..ethereum._encoding import PROXY, checksum_address, create2_address, word
+from ..ethereum._encoding import PROXY, PUSH32, checksum_address, create2_address, instructions, word
 from ._collection import Collection, CollectionKind
 from ._icons import add_call, icons_of
 
@@ -175,23 +173,14 @@ def plan_setup(
     return dict(zip(wanted, quotes, strict=True))
 
 
-PUSH1, PUSH32 = 0x60, 0x7F
 #: What the compiler pushes in place of an immutable value; it pushes 32 zeros nowhere else.
 EMPTY = bytes(32)
 
 
 def immutable_places(runtime: bytes) -> list[int]:
     """Return the offsets of immutable values, of 32 bytes each, in the runtime code of an artifact."""
-    places, at = [], 0
-    while at < len(runtime):
-        operation = runtime[at]
-        at += 1
-        if PUSH1 <= operation <= PUSH32:
-            size = operation - PUSH1 + 1
-            if size == 32 and runtime[at : at + 32] == EMPTY:
-                places.append(at)
-            at += size
-    return places
+    pushed = [at + 1 for at in instructions(runtime) if runtime[at] == PUSH32]
+    return [at for at in pushed if runtime[at : at + 32] == EMPTY]
 
 
 def immutable_values(code: bytes, runtime: bytes) -> dict[int, bytes]:

@@ -1,7 +1,5 @@
 """Metadata of a token from its `tokenURI`, which is untrusted: name, traits, picture."""
 
-from __future__ import annotations
-
 import base64
 import binascii
 import io

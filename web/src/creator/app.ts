@@ -286,13 +286,8 @@ export class App {
 
     #say(text: string, kind: Toast["kind"]): void {
         const toast = { id: (this.#toast += 1), text, kind };
-        this.toasts.value = [
-            ...this.toasts
-                .peek()
-                .filter((each) => each.text !== text)
-                .slice(-2),
-            toast,
-        ];
+        const others = this.toasts.peek().filter((each) => each.text !== text);
+        this.toasts.value = [...others.slice(-2), toast];
         setTimeout(() => this.dismiss(toast.id), kind === "error" ? 15_000 : 3000 + 70 * text.length);
     }
 

@@ -1,7 +1,7 @@
 // The files of the page: beside it, each in gzip, or as elements of a page that is one file, in gzip and base64.
 
 import { InputError } from "../errors.js";
-import { fetchBytes } from "../evm/assets.js";
+import { fetchBytes, keptOrLoaded } from "../evm/assets.js";
 import { inflate, isGzip } from "../bytes.js";
 import { unpackPiece } from "../document/packed.js";
 
@@ -42,13 +42,7 @@ export class PageAssets {
 
     /** The bytes of a file, which is loaded once. InputError where it cannot be had. */
     bytes(name: AssetName | `pieces/${string}`): Promise<Uint8Array<ArrayBuffer>> {
-        const kept = this.#kept.get(name);
-        if (kept) return kept;
-        const loading = load(name);
-        this.#kept.set(name, loading);
-        // what could not be loaded may be there later
-        loading.catch(() => this.#kept.delete(name));
-        return loading;
+        return keptOrLoaded(this.#kept, name, () => load(name));
     }
 
     /** What a JSON file holds. */

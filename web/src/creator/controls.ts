@@ -1,11 +1,12 @@
 // The controls of the page, as a table: each reads one value of a document, and writes it. Those of settings of the Python
 // package come from its table: a new setting that is a number, a switch, a colour or a choice has a control at once.
 
+import { clamped } from "../scene/arithmetic.js";
 import { MAX_LIGHTS } from "../scene/constants.js";
 import { LIGHT_KINDS, MAX_SIDE, PROJECTIONS } from "../scene/fields.js";
 import { resetCamera } from "../document/camera.js";
 import type { Document, Meshes } from "../document/document.js";
-import { around, changed, chosen, clamped, tidy, type Selection } from "../document/measure.js";
+import { around, changed, chosen, tidy, type Selection } from "../document/measure.js";
 import { PARTS, camel, capital, settingsOf, type Part, type Scope, type Value } from "../document/fields.js";
 import { SETTINGS, type Setting } from "../document/settings.js";
 
@@ -241,12 +242,8 @@ function control([path, label, own = {}, help]: Row): Control {
             pairs(doc, selection, own, meshes).some(([ids, value]) => read(scope(doc, ids, meshes)) !== value),
         reset: (doc, selection, own, meshes) => {
             const known = part.reset?.(scope(doc, selection, meshes), own, key, axis);
-            const made =
-                known ??
-                pairs(doc, selection, own, meshes).reduce(
-                    (before, [ids, value]) => put(scope(before, ids, meshes), value),
-                    doc,
-                );
+            const back = (before: Document, [ids, value]: [Selection, Value]) => put(scope(before, ids, meshes), value);
+            const made = known ?? pairs(doc, selection, own, meshes).reduce(back, doc);
             return part.exact?.(made, own) ?? made;
         },
     } as Control;

@@ -14,6 +14,7 @@ import { listenToKeys } from "./ui/keys.js";
 import { Page } from "./ui/page.js";
 import { showToasts } from "./ui/toasts.js";
 import { Work } from "./work/work.js";
+import { clamped } from "../scene/arithmetic.js";
 import "./ui/style.css";
 
 /** What is shown where nothing else is asked for. */
@@ -134,7 +135,7 @@ function turnIntoView(app: App): void {
     let now = end;
     const step = (time: number): void => {
         if (app.doc.peek() !== now) return;
-        const part = Math.min(Math.max((time - at) / ENTRANCE.time, 0), 1);
+        const part = clamped((time - at) / ENTRANCE.time, 0, 1);
         const left = (1 - part) ** 3;
         app.drawing.moved();
         app.doc.value = now = part === 1 || isOver() ? end : turned(end, ENTRANCE.turn * left, 0);

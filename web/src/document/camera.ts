@@ -2,23 +2,12 @@
 //
 // Distances on the picture are parts of its height, x to the right and y down.
 
-import { add, cross, dot, length, subtract, times, unit, type Vector } from "../scene/arithmetic.js";
+import { add, clamped, cross, dot, length, subtract, times, unit, type Vector } from "../scene/arithmetic.js";
 import { FIELDS } from "../scene/fields.js";
 import { halfHeightOf } from "../scene/staging.js";
 import type { Light } from "../scene/types.js";
 import type { Document, Frame, Meshes, View } from "./document.js";
-import {
-    around,
-    boundsOfPoints,
-    chosen,
-    clamped,
-    degrees,
-    pointsOf,
-    radians,
-    tidied,
-    tidy,
-    type Selection,
-} from "./measure.js";
+import { around, boundsOfPoints, chosen, degrees, pointsOf, radians, tidied, tidy, type Selection } from "./measure.js";
 
 /**
  * A camera: angles in degrees, to the right of the front (+z) and above the horizon, lengths in radii, `target` relative

@@ -23,7 +23,7 @@ const KINDS = ["number", "whole", "flag", "color", "choice"];
 function defaultOf({ kind, part, default: words, low, choices }: Setting): Value {
     if (kind === "flag") return false;
     if (kind === "color") return part === "object" ? null : "#000000";
-    return kind === "choice" ? (choices[0] as string) : Number.parseFloat(words) || (low ?? 0);
+    return kind === "choice" ? choices[0] : Number.parseFloat(words) || (low ?? 0);
 }
 
 /** Return the value of a setting that an object does not have. */
@@ -221,7 +221,7 @@ const pose: Part = {
         const items = chosen(doc, selection);
         if (key === "rotation") {
             const angles = items.map(({ rotation }) => measure.eulerOf(rotation));
-            return [0, 1, 2].map((axis) => common(angles.map((each) => each[axis] as number)));
+            return [0, 1, 2].map((axis) => common(angles.map((each) => each[axis])));
         }
         const { middle, radius } = measure.sphereOfAll(items, meshes);
         return key === "size" ? tidy(radius / doc.frame.radius) : inside(doc.frame, middle as Vector).map(tidy);
@@ -248,7 +248,7 @@ const pose: Part = {
         return carried(scope, (item) => {
             const opened = before.get(item.id) ?? item;
             if (key === "size") return { factor: opened.scale / item.scale };
-            const angle = measure.eulerOf(opened.rotation)[axis] as number;
+            const angle = measure.eulerOf(opened.rotation)[axis];
             return { rotation: measure.eulerOf(item.rotation).with(axis, angle) as Vector };
         });
     },
@@ -280,11 +280,8 @@ function lampPart(number: number): Part {
         },
         // what another kind of light does not have, and the shadow that another light has, come back
         reset: ({ doc }, own, key) => {
-            if (key === "shadow")
-                return setShadow(
-                    doc,
-                    own.lights.findIndex(({ shadow }) => shadow),
-                );
+            const shadowed = own.lights.findIndex(({ shadow }) => shadow);
+            if (key === "shadow") return setShadow(doc, shadowed);
             const [here, there] = [doc, own].map(({ lights }) => lights[number]);
             if (key !== "kind" || !here || !there) return undefined;
             const { kind, distance, target, innerAngle, outerAngle } = lampOf(there, doc.frame);

@@ -75,7 +75,7 @@ function anglesIn(direction: Vector): { azimuth: number; elevation: number } {
 
 /** Return the light in the world. */
 export function lightOf(lamp: Lamp, frame: Frame): Light {
-    const { color, shadow } = lamp;
+    const { color, shadow, outerAngle } = lamp;
     const toward = axesAt(lamp.azimuth, lamp.elevation).back;
     if (lamp.kind === "directional") {
         return { kind: lamp.kind, direction: tidied(toward), color, shadow } satisfies DirectionalLight;
@@ -87,16 +87,8 @@ export function lightOf(lamp: Lamp, frame: Frame): Light {
     const way = subtract(lamp.target, place);
     const beam = Math.max(...way.map(Math.abs)) > 1e-9 ? way : times(-1, toward);
     const direction = tidied(times(frame.radius, beam), frame.radius);
-    const innerAngle = Math.min(lamp.innerAngle, lamp.outerAngle);
-    return {
-        kind: lamp.kind,
-        position,
-        direction,
-        color,
-        innerAngle,
-        outerAngle: lamp.outerAngle,
-        shadow,
-    } satisfies SpotLight;
+    const innerAngle = Math.min(lamp.innerAngle, outerAngle);
+    return { kind: lamp.kind, position, direction, color, innerAngle, outerAngle, shadow } satisfies SpotLight;
 }
 
 /** Return the document with a changed light. number: from 0. */

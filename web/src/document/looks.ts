@@ -22,13 +22,8 @@ export function applyLook(doc: Document, name: string, ids: Selection = ALL): Do
     const { azimuth } = orbitOf(doc.camera, doc.frame);
     const isShadowed = doc.lights.some(({ shadow }) => shadow);
     const lights = look.lamps.map((lamp, number): Light => {
-        const placed = {
-            ...LAMP,
-            ...lamp,
-            azimuth: around(lamp.azimuth + azimuth),
-            shadow: isShadowed && number === 0,
-        };
-        return lightOf(placed, doc.frame);
+        const turned = { ...lamp, azimuth: around(lamp.azimuth + azimuth) };
+        return lightOf({ ...LAMP, ...turned, shadow: isShadowed && number === 0 }, doc.frame);
     });
     const { ambientLight, background, invert } = look;
     return { ...changed(doc, ids, (item) => surfaced(item, look)), lights, ambientLight, background, invert };
@@ -41,13 +36,9 @@ function surfaced(item: Item, { material, color, wireframe }: Preset): Item {
 
 /** Return the name of the look that a document has; null where it has another one. */
 export function lookOf(doc: Document): string | null {
-    const found = LOOKS.find(({ name }) => {
-        const { objects, ambientLight, background, invert } = applyLook(doc, name);
-        return (
-            JSON.stringify([doc.objects, doc.ambientLight, doc.background, doc.invert]) ===
-            JSON.stringify([objects, ambientLight, background, invert])
-        );
-    });
+    const shown = ({ objects, ambientLight, background, invert }: Document): string =>
+        JSON.stringify([objects, ambientLight, background, invert]);
+    const found = LOOKS.find(({ name }) => shown(applyLook(doc, name)) === shown(doc));
     return found && found.lamps.length === doc.lights.length ? found.name : null;
 }
 

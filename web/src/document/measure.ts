@@ -42,10 +42,6 @@ export function around(degrees: number): number {
     return Math.abs(degrees) <= 180 ? degrees : degrees - 360 * Math.round(degrees / 360);
 }
 
-export function clamped(x: number, low: number, high: number): number {
-    return Math.min(Math.max(x, low), high);
-}
-
 export const degrees = (radians: number): number => (radians * 180) / Math.PI;
 export const radians = (degrees: number): number => (degrees * Math.PI) / 180;
 

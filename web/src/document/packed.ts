@@ -60,7 +60,7 @@ class Reader {
         const planes = this.#planes(count, width);
         return Uint32Array.from({ length: count }, (_, index) => {
             let value = 0;
-            for (let byte = width - 1; byte >= 0; byte--) value = value * 256 + planes[index * width + byte]!;
+            for (let byte = width - 1; byte >= 0; byte--) value = value * 256 + planes[index * width + byte];
             return value;
         });
     }
@@ -76,14 +76,14 @@ class Reader {
         const [size] = this.integers(1, 4);
         const table = new Float64Array(this.#planes(size!, 8).buffer);
         const places = this.integers(count, size! < 1 << 15 ? 2 : 4);
-        return Float64Array.from(places, (place) => (place & 1 ? -table[place >>> 1]! : table[place >>> 1]!));
+        return Float64Array.from(places, (place) => (place & 1 ? -table[place >>> 1] : table[place >>> 1]));
     }
 
     #planes(count: number, width: number): Uint8Array<ArrayBuffer> {
         const found = new Uint8Array(count * width);
         for (let byte = 0; byte < width; byte++) {
             for (let index = 0; index < count; index++) {
-                found[index * width + byte] = this.#bytes[this.#at + byte * count + index]!;
+                found[index * width + byte] = this.#bytes[this.#at + byte * count + index];
             }
         }
         this.#at += count * width;

@@ -134,7 +134,7 @@ export function digestOf(mesh: Mesh, normals: Mesh["normals"], texture: Texture 
     for (const each of [new TextEncoder().encode(JSON.stringify(more)), ...tables]) {
         if (!each) continue;
         for (const byte of new Uint8Array(each.buffer, each.byteOffset, each.byteLength)) {
-            for (let lane = 0; lane < 4; lane++) lanes[lane] = Math.imul(lanes[lane] ^ byte, FACTORS[lane] as number);
+            for (let lane = 0; lane < 4; lane++) lanes[lane] = Math.imul(lanes[lane] ^ byte, FACTORS[lane]);
         }
     }
     return Array.from(lanes, (each) => each.toString(16).padStart(8, "0")).join("");
@@ -294,11 +294,8 @@ export async function openSceneFile(json: string | object, library: Library, abo
         }
     });
     const known = Object.assign({}, about, ...["title", "notice", "licence"].map((key) => text(creator, key))) as About;
-    const { document, meshes } = documentOfScene(
-        scene,
-        known,
-        extras.map((each, index) => ({ ...names[index], ...each })),
-    );
+    const called = extras.map((each, index) => ({ ...names[index], ...each }));
+    const { document, meshes } = documentOfScene(scene, known, called);
     const frame = creator.table("frame");
     const [middle, radius] = [frame.read("middle", check.vector), frame.number("radius", 1e-30)];
     const lightsFollow = creator.read("lights_follow", check.flag) ?? false;

@@ -1,5 +1,7 @@
 // How long pictures of a size take, and the size at which they are drawn while the viewer moves.
 
+import { clamped } from "../scene/arithmetic.js";
+
 /** Milliseconds that a picture may take while the viewer moves: 60 a second at the call's own size or above it, or 25. */
 const FRAME = 16;
 export const SLOW_FRAME = 40;
@@ -57,6 +59,6 @@ export function areaOf([width, height]: Size): number {
 
 /** Return a part of a size, in its proportions. */
 export function scaled([width, height]: Size, part: number): Size {
-    const factor = Math.min(Math.max(part, MIN_SIDE / Math.min(width, height)), 1);
+    const factor = clamped(part, MIN_SIDE / Math.min(width, height), 1);
     return [Math.round(width * factor), Math.round(height * factor)];
 }

@@ -27,6 +27,23 @@ export interface Assets {
     contracts: Contracts;
 }
 
+/** Return what a table keeps by a key, or else loads now: what could not be loaded may be there later. */
+export function keptOrLoaded<K, V>(table: Loading<K, V>, key: K, load: () => Promise<V>): Promise<V> {
+    const known = table.get(key);
+    if (known) return known;
+    const loading = load();
+    table.set(key, loading);
+    loading.catch(() => table.delete(key));
+    return loading;
+}
+
+/** A Map or WeakMap of what was loaded, or is being loaded. */
+interface Loading<K, V> {
+    get(key: K): Promise<V> | undefined;
+    set(key: K, value: Promise<V>): unknown;
+    delete(key: K): boolean;
+}
+
 /** Load what is needed to draw. InputError where they cannot be had. */
 export async function loadAssets(sources: AssetSources = {}): Promise<Assets> {
     const { evm, contracts } = sources;

@@ -219,7 +219,7 @@ function passed<T>(
     const memory = new Uint8Array(exports.memory.buffer);
     values.forEach((value, index) => memory.set(value, places[index]));
     const result = use(...(places as [number, number, number]));
-    values.forEach((value, index) => exports.release(places[index] as number, value.length));
+    values.forEach((value, index) => exports.release(places[index], value.length));
     return result;
 }
 

@@ -1,10 +1,10 @@
 // Nodes, asked over JSON-RPC: by whom the same picture can be computed, and where scenes are stored.
 
 import { InputError } from "../errors.js";
-import { bytesAt, fromHex, readStream, toHex } from "../bytes.js";
+import { bytesAt, fromHex, joined, readStream, toHex } from "../bytes.js";
 import { CallError, describeRevert, type ContractEvm, type Contracts } from "./contracts.js";
 import { RENDERER } from "./names.js";
-import { FUNCTIONS } from "../scene/encode.js";
+import { FUNCTIONS, selectorOf } from "../scene/encode.js";
 
 /** A node that could not be asked, or did not answer as nodes do. The message is one line. */
 export class NodeError extends Error {
@@ -92,7 +92,7 @@ export interface Asked {
 export async function askNode(url: string, call: Uint8Array, contracts: Contracts): Promise<Asked> {
     const entries = RENDERER.map((name) => contracts.contracts[name]);
     const codes = await Promise.all(entries.map(({ address }) => request(url, "eth_getCode", [address, "latest"])));
-    const deployed = entries.every(({ code }, index) => toHex(codes[index] as Uint8Array) === code.toLowerCase());
+    const deployed = entries.every(({ code }, index) => toHex(codes[index]) === code.toLowerCase());
     const overrides = Object.fromEntries(entries.map(({ address, code }) => [address, { code }]));
     const transaction = { to: contracts.contracts.Renderer.address, data: toHex(call) };
     try {
@@ -118,18 +118,13 @@ export async function readStored(
 ): Promise<Uint8Array<ArrayBuffer>> {
     const [place, target] = [addressOf(studio, "studio"), addressOf(pointer, "pointer")];
     evm.put(place, fromHex(evm.contracts.contracts.Studio.code));
-    const call = new Uint8Array(36);
-    new DataView(call.buffer).setUint32(0, SCENE);
-    call.set(target, 16);
+    const call = joined([selectorOf(SCENE), new Uint8Array(12), target]);
     const asked = new Set<string>();
     for (;;) {
         try {
             const { output } = evm.call(place, call);
             // what `scene` returns is encoded as the argument of `render` is
-            const result = new Uint8Array(4 + output.length);
-            new DataView(result.buffer).setUint32(0, FUNCTIONS.render);
-            result.set(output, 4);
-            return result;
+            return joined([selectorOf(FUNCTIONS.render), output]);
         } catch (error) {
             const missing = error instanceof CallError ? missingPart(error.data, evm.contracts) : null;
             if (!missing) throw error;

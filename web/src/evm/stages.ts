@@ -47,7 +47,7 @@ export function placesOf(code: Uint8Array, { runs, jumps, functions, entries }: 
     const view = new DataView(places.buffer);
     let [run, left, jump, target] = [0, runs[0] ?? 0, 0, 0];
     for (let at = 0; at < code.length; at++) {
-        const [opcode, place] = [code[at] as number, PLACE * at];
+        const [opcode, place] = [code[at], PLACE * at];
         // behind the instructions are data
         while (!left && run < runs.length) left = runs[(run += 2)] ?? 0;
         places[place] = runs[run + 1] ?? 0;
@@ -67,7 +67,7 @@ export function gasByStage(table: Uint32Array, stages: readonly string[]): Stage
     const found = stages.map((stage) => ({ stage, gas: 0 }));
     for (let at = 1 + FUNCTION * (table[0] ?? 0); at < table.length; at += POSITION) {
         const sum = found[(table[at + 1] || stages.length) - 1] as StageGas;
-        sum.gas += (table[at + 4] as number) + 2 ** 32 * (table[at + 5] as number);
+        sum.gas += table[at + 4] + 2 ** 32 * table[at + 5];
     }
     return found;
 }

@@ -51,11 +51,8 @@ export function dracoLoader({ draco }: Source): DRACOLoader {
                 decoder.GetAttributeDataArrayForAllPoints(mesh, attribute, type, size, at);
             geometry.setAttribute(name, table(kind, attribute.num_components(), mesh.num_points(), read));
         }
-        geometry.setIndex(
-            table("Uint32Array", 1, 3 * mesh.num_faces(), (size, at) =>
-                decoder.GetTrianglesUInt32Array(mesh, size, at),
-            ),
-        );
+        const read = (size: number, at: number): void => decoder.GetTrianglesUInt32Array(mesh, size, at);
+        geometry.setIndex(table("Uint32Array", 1, 3 * mesh.num_faces(), read));
         library.destroy(mesh);
         library.destroy(decoder);
         return geometry;

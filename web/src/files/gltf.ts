@@ -4,6 +4,7 @@ import { DoubleSide, LoadingManager, Texture, type Mesh, type MeshStandardMateri
 import { GLTFLoader, type GLTFParser } from "three/examples/jsm/loaders/GLTFLoader.js";
 import { MeshoptDecoder } from "meshoptimizer/decoder";
 import { InputError, show } from "../errors.js";
+import { clamped } from "../scene/arithmetic.js";
 import { dracoLoader } from "./draco.js";
 import { hides, imageOf, type Picture } from "./images.js";
 import { GREY, toLinear, toSrgb, type Surface, type Triangles } from "./parts.js";
@@ -206,10 +207,8 @@ function prepare({ json, leaveOut }: Gltf): void {
     for (const mesh of meshes) {
         const isDrawn = ({ mode = 4, attributes }: Json): boolean => mode > 3 && attributes?.POSITION !== undefined;
         const drawn: Json[] = mesh.primitives.filter(isDrawn);
-        const [lost, more] = [
-            mesh.primitives.length - drawn.length,
-            drawn.filter(({ attributes }) => attributes.JOINTS_1),
-        ];
+        const lost = mesh.primitives.length - drawn.length;
+        const more = drawn.filter(({ attributes }) => attributes.JOINTS_1);
         leaveOut("primitive of points or lines", "primitives of points or lines", shown.has(mesh) ? lost : 0);
         leaveOut("set of joints beyond four of a vertex", "sets of joints beyond four of a vertex", more.length);
         mesh.primitives = drawn;
@@ -224,12 +223,10 @@ function prepare({ json, leaveOut }: Gltf): void {
         const older = material.extensions?.KHR_materials_pbrSpecularGlossiness;
         if (older) {
             const { diffuseFactor, diffuseTexture, glossinessFactor = 1, specularGlossinessTexture } = older;
-            const base = { baseColorFactor: diffuseFactor, baseColorTexture: diffuseTexture, metallicFactor: 0 };
-            const rough = {
-                roughnessFactor: 1 - glossinessFactor,
-                metallicRoughnessTexture: specularGlossinessTexture,
+            material.pbrMetallicRoughness = {
+                ...{ baseColorFactor: diffuseFactor, baseColorTexture: diffuseTexture, metallicFactor: 0 },
+                ...{ roughnessFactor: 1 - glossinessFactor, metallicRoughnessTexture: specularGlossinessTexture },
             };
-            material.pbrMetallicRoughness = { ...base, ...rough };
         }
         const keys = (material.pbrMetallicRoughness ??= {});
         if (material.normalTexture) leaveOut("normal texture");
@@ -339,7 +336,7 @@ function lookOf(
     const cutoff = own?.alphaMode === "MASK" ? material.alphaTest : 0;
     if (opacity < cutoff) return undefined;
     const surface: Surface = {
-        opacity: blended ? Math.min(Math.max(opacity, 0), 1) : 1,
+        opacity: blended ? clamped(opacity, 0, 1) : 1,
         emission: emission.map(toSrgb) as unknown as Surface["emission"],
         unlit,
         twoSided: material.side === DoubleSide,
@@ -355,7 +352,7 @@ function lookOf(
     }
     if (map.matrixAutoUpdate) map.updateMatrix();
     const hasAlpha = (blended || cutoff > 0) && hides(picture.image);
-    const level = Math.min(Math.max(Math.ceil((255 * cutoff) / Math.max(opacity, 1e-9) - 1e-6), 1), 255);
+    const level = clamped(Math.ceil((255 * cutoff) / Math.max(opacity, 1e-9) - 1e-6), 1, 255);
     surface.picture = { ...picture, hasAlpha, cutoff: hasAlpha && cutoff ? level : 0 };
     return { surface, factor, blended, channel: map.channel, matrix: map.matrix };
 }

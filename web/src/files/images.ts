@@ -1,6 +1,7 @@
 // Images of textures: their pixels, and what of them a mesh needs.
 
 import { InputError } from "../errors.js";
+import { clamped } from "../scene/arithmetic.js";
 import type { Texture } from "../scene/checked.js";
 import { baseOf, fileBeside, type Image, type Source } from "./source.js";
 
@@ -133,10 +134,9 @@ export function isPlain(
     const { width, height, pixels } = image;
     if (hasAlpha) return false;
     const [red, green, blue] = pixels;
-    image.isOne ??= !isSomewhere(
-        image,
-        (_, at) => pixels[at] !== red || pixels[at + 1] !== green || pixels[at + 2] !== blue,
-    );
+    const isOther = (_: unknown, at: number): boolean =>
+        pixels[at] !== red || pixels[at + 1] !== green || pixels[at + 2] !== blue;
+    image.isOne ??= !isSomewhere(image, isOther);
     if (image.isOne) return true;
     const colorAt = (x: number, y: number): number => {
         const at = 4 * (y * width + x);
@@ -164,7 +164,7 @@ export function isPlain(
 
 /** Multiply the colours of triangles, each of which shows one colour of a picture, by that colour. */
 export function tint(colors: Uint8Array, { image }: Picture, uvs: Float64Array, triangles: readonly number[]): void {
-    const texel = (place: number, size: number): number => Math.min(Math.max(Math.floor(place * size), 0), size - 1);
+    const texel = (place: number, size: number): number => clamped(Math.floor(place * size), 0, size - 1);
     for (const triangle of triangles) {
         for (let corner = 3 * triangle; corner < 3 * triangle + 3; corner++) {
             const [x, y] = [texel(uvs[2 * corner], image.width), texel(uvs[2 * corner + 1], image.height)];
@@ -228,10 +228,8 @@ function reduced({ width, height, pixels }: Image, side: number, byAlpha: boolea
     const covered = (size: number, old: number): [number, number][][] =>
         Array.from({ length: size }, (_, at) => {
             const [begin, end] = [(at * old) / size, ((at + 1) * old) / size];
-            const pixels = Array.from(
-                { length: Math.ceil(end) - Math.floor(begin) },
-                (_, step) => Math.floor(begin) + step,
-            );
+            const first = Math.floor(begin);
+            const pixels = Array.from({ length: Math.ceil(end) - first }, (_, step) => first + step);
             return pixels.map((each) => [each, Math.min(each + 1, end) - Math.max(each, begin)]);
         });
     const [columns, rows] = [covered(wide, width), covered(high, height)];

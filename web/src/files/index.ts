@@ -3,15 +3,15 @@
 import script from "worker:files/worker.ts";
 import { refOf, type Meshes } from "../document/document.js";
 import { InputError } from "../errors.js";
-import { Pool, started, type WorkerLike } from "../workers/pool.js";
+import { Pool, started, type AskOptions, type WorkerLike } from "../workers/pool.js";
 import { DRACO, type Requests } from "./protocol.js";
 import type { Given, Opened, Options } from "./read.js";
 
 export type { Given, Opened, Options } from "./read.js";
 
 /** Return the document of files. InputError, a sentence, if nothing of them can be shown. */
-export async function readFiles(files: readonly Given[], options: Options): Promise<Opened> {
-    const { size, maxTriangles, library, draco, signal, onProgress } = options;
+export async function readFiles(files: readonly Given[], options: Options & AskOptions): Promise<Opened> {
+    const { size, maxTriangles, library, draco, signal } = options;
     const supply = async (key: string): Promise<[string, unknown]> => {
         if (key !== DRACO) return [key, (library as Meshes).get(refOf(key))];
         if (!draco) throw new InputError("the decoder of Draco is not here");
@@ -25,7 +25,7 @@ export async function readFiles(files: readonly Given[], options: Options): Prom
     };
     const pool = new Pool<Requests, "read">({ start: inClosedFrame, supplies }, { read: 1 });
     try {
-        return await pool.ask("read", { files, size, maxTriangles }, "read", { signal, onProgress });
+        return await pool.ask("read", { files, size, maxTriangles }, "read", { signal });
     } finally {
         pool.stop();
     }

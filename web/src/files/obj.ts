@@ -4,7 +4,7 @@ import { Matrix3, type Mesh } from "three";
 import { MTLLoader } from "three/examples/jsm/loaders/MTLLoader.js";
 import { OBJLoader } from "three/examples/jsm/loaders/OBJLoader.js";
 import { InputError } from "../errors.js";
-import type { Vector } from "../scene/arithmetic.js";
+import { clamped, type Vector } from "../scene/arithmetic.js";
 import { pictureBeside, type Picture } from "./images.js";
 import { GREY, PLAIN, toByte, toLinear, type Triangles } from "./parts.js";
 import { earsOf } from "./polygons.js";
@@ -33,9 +33,7 @@ export async function readObj(source: Source): Promise<Triangles> {
             if (!SILENT.test(key)) leftOut.set(key, (leftOut.get(key) ?? 0) + count);
             return "";
         });
-    const text = withColors(
-        cutPolygons(lines.replace(NAMED, (_, key: string, name: string) => `${key} ${bare(name)}`)),
-    );
+    const text = withColors(cutPolygons(bareNames(lines)));
     const list = [...leftOut]
         .slice(0, 8)
         .map(([key, count]) => plural(count, NAMES[key] ?? `statement '${key.slice(0, 20)}'`));
@@ -49,12 +47,7 @@ export async function readObj(source: Source): Promise<Triangles> {
     const materials: Record<string, Record<string, string | number[]>> = {};
     for (const name of root.materialLibraries.flatMap((each) => each.match(/\S.*?\.mtl(?!\S)|\S.*/gi) ?? [])) {
         const file = fileBeside(source, name);
-        const text =
-            file &&
-            withPoints(textOf(file.bytes), source, OF_NUMBERS).replace(
-                NAMED,
-                (_, key: string, name: string) => `${key} ${bare(name)}`,
-            );
+        const text = file && bareNames(withPoints(textOf(file.bytes), source, OF_NUMBERS));
         if (text !== undefined) Object.assign(materials, new MTLLoader().parse(text, "").materialsInfo);
         else tell(`its materials are left out: ${baseOf(name)} is not among the files that were given`);
     }
@@ -78,13 +71,12 @@ export async function readObj(source: Source): Promise<Triangles> {
     });
 }
 
-/** Return a name without a comment, quotes and several spaces. */
-function bare(name: string): string {
-    return name
-        .replace(/(^|\s)#(?=\s|$).*/, "")
-        .replaceAll(/["']/g, "")
-        .trim()
-        .replace(/\s+/g, " ");
+/** Return the text with names without comments, quotes and several spaces. */
+function bareNames(text: string): string {
+    return text.replace(NAMED, (_, key: string, name: string) => {
+        const plain = name.replace(/(^|\s)#(?=\s|$).*/, "").replaceAll(/["']/g, "");
+        return `${key} ${plain.trim().replace(/\s+/g, " ")}`;
+    });
 }
 
 /** Return the text with a colour in fractions for each vertex, if one has any: the loader mixes up those of some only. */
@@ -128,7 +120,7 @@ async function lookOf(
         // one number is all of them
         return levels.map((level) => toByte(Number.isFinite(level) ? level : levels[0], 1));
     };
-    const surface = { ...PLAIN, opacity: Math.min(Math.max(Number(own?.d ?? 1 - Number(own?.tr ?? 0)) || 0, 0), 1) };
+    const surface = { ...PLAIN, opacity: clamped(Number(own?.d ?? 1 - Number(own?.tr ?? 0)) || 0, 0, 1) };
     if (own && !own.map_ke) surface.emission = bytes("ke", 0) as unknown as typeof surface.emission;
     const unread = Object.keys(own ?? {}).filter((key) => /^(map_(?!k[ad]$)|bump|norm|disp|decal|refl)/.test(key));
     if (unread.length) source.tell(`of its materials are left out: ${unread.join(", ")}`);

@@ -48,23 +48,14 @@ export function readOff(source: Source): Triangles {
     if (hasUvs) tell("its texture coordinates are left out, for an OFF file names no texture");
     const positions = Float64Array.from(vertices.flatMap((row) => row.slice(0, 3)));
     const sizes = polygons.map(([size]) => size);
-    const { faces, polygon } = cut(
-        positions,
-        sizes,
-        polygons.flatMap((row) => row.slice(1, 1 + row[0])),
-    );
+    const corners = polygons.flatMap((row) => row.slice(1, 1 + row[0]));
+    const { faces, polygon } = cut(positions, sizes, corners);
     // in Geomview's CNOFF the normal comes before the colour, in MeshLab's NCOFF behind it
     const isLast = header[1].indexOf("N") < header[1].indexOf("C");
     const behind = vertices.map((row) => row.slice(3, hasUvs ? -2 : undefined));
     const normals = hasNormals ? behind.flatMap((row) => row.splice(isLast ? -3 : 0, 3)) : undefined;
-    const [ofVertices, ofFaces] = [
-        colorsOf(behind, "vertices", tell),
-        colorsOf(
-            polygons.map((row) => row.slice(1 + row[0])),
-            "faces",
-            tell,
-        ),
-    ];
+    const behindFaces = polygons.map((row) => row.slice(1 + row[0]));
+    const [ofVertices, ofFaces] = [colorsOf(behind, "vertices", tell), colorsOf(behindFaces, "faces", tell)];
     const colors = new Uint8Array(4 * faces.length);
     faces.forEach((vertex, corner) =>
         colors.set(ofFaces[polygon[Math.floor(corner / 3)]] ?? ofVertices[vertex] ?? [...GREY, 255], 4 * corner),

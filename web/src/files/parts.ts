@@ -1,7 +1,7 @@
 // From the triangles of a file to meshes: one for each texture, opacity and kind of surface.
 
 import { InputError } from "../errors.js";
-import { cross, length, subtract, type Vector } from "../scene/arithmetic.js";
+import { clamped, cross, length, subtract, type Vector } from "../scene/arithmetic.js";
 import type { Mesh, Texture } from "../scene/checked.js";
 import type { Rgb } from "../scene/checks.js";
 import { cornerNormals } from "../scene/normals.js";
@@ -62,9 +62,8 @@ export function partsOf(
     const images = [...new Set(surfaces.map(({ picture }) => picture?.image))];
     const groups = new Map<string, Group>();
     const lists = surfaces.map((): number[] => []);
-    const areas = Float64Array.from({ length: faces.length / 3 }, (_, triangle) =>
-        areaOf(positions, faces.subarray(3 * triangle)),
-    );
+    const area = (_: unknown, triangle: number): number => areaOf(positions, faces.subarray(3 * triangle));
+    const areas = Float64Array.from({ length: faces.length / 3 }, area);
     areas.forEach((area, triangle) => Number.isNaN(area) || lists[surface?.[triangle] ?? 0].push(triangle));
     const lost = areas.filter(Number.isNaN).length;
     if (lost === areas.length)
@@ -126,7 +125,7 @@ function isVisible({ opacity, mesh, texture }: Part): boolean {
 
 /** Return strength and exponent, with Beckmann's roughness of Blinn-Phong; the strength is a matter of taste. */
 function highlightsOf(roughness: number, metalness: number): [number, number] {
-    const exponent = Math.min(Math.max(2 / Math.max(roughness, 0.1) ** 4 - 2, 10), 128);
+    const exponent = clamped(2 / Math.max(roughness, 0.1) ** 4 - 2, 10, 128);
     return [Math.round(1000 * (0.8 + 0.3 * metalness) * (1 - roughness)) / 1000, Math.round(exponent)];
 }
 
@@ -160,10 +159,8 @@ export function ofCorners(
     what: string,
     { tell }: Source,
 ): Float64Array {
-    const found = Float64Array.from(
-        { length: width * vertices.length },
-        (_, at) => rows[width * vertices[Math.floor(at / width)] + (at % width)],
-    );
+    const value = (_: unknown, at: number): number => rows[width * vertices[Math.floor(at / width)] + (at % width)];
+    const found = Float64Array.from({ length: width * vertices.length }, value);
     const bad = found.filter((x) => !Number.isFinite(x)).length;
     if (bad) tell(`${what} that are not finite numbers are not used: ${bad.toLocaleString("en")}`);
     return bad ? found.map((x) => (Number.isFinite(x) ? x : 0)) : found;
@@ -172,7 +169,7 @@ export function ofCorners(
 /** Return a channel of a colour, 0..`largest`, as a byte. */
 export function toByte(level: number, largest: number): number {
     if (!Number.isFinite(level)) throw new InputError("it has a colour that is not finite numbers");
-    return Math.round((Math.min(Math.max(level, 0), largest) * 255) / largest);
+    return Math.round((clamped(level, 0, largest) * 255) / largest);
 }
 
 /** Return a level of sRGB, 0..1, as a linear one. */
@@ -182,6 +179,6 @@ export function toLinear(level: number): number {
 
 /** Return a linear level, 0..1, as a byte of sRGB. */
 export function toSrgb(linear: number): number {
-    const value = Math.min(Math.max(linear, 0), 1);
+    const value = clamped(linear, 0, 1);
     return Math.round(255 * (value <= 0.0031308 ? 12.92 * value : 1.055 * value ** (1 / 2.4) - 0.055));
 }

@@ -59,13 +59,9 @@ class Element {
     table(...names: string[]): Float64Array | undefined {
         const found = this.find(names);
         const width = found?.length ?? 0;
-        return (
-            found &&
-            Float64Array.from(
-                { length: width * this.count },
-                (_, at) => found[at % width].values[Math.floor(at / width)],
-            )
-        );
+        if (!found) return undefined;
+        const value = (_: unknown, at: number): number => found[at % width].values[Math.floor(at / width)];
+        return Float64Array.from({ length: width * this.count }, value);
     }
 
     /** Return four bytes for each row; undefined if there are no colours. */

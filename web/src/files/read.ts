@@ -28,9 +28,6 @@ export interface Options {
     draco?: (() => Promise<Uint8Array>) | undefined;
     /** Returns a file that was not given, by the name that one of those that were gives it. */
     beside?: ((name: string) => Given | undefined) | undefined;
-    signal?: AbortSignal | undefined;
-    /** Called with what is done at the moment. */
-    onProgress?: ((what: string) => void) | undefined;
 }
 
 /** What was opened: its document, the meshes of it by their keys, and a line for each thing that is not as in the file. */
@@ -105,8 +102,7 @@ function unknown(files: readonly Given[]): InputError {
     return new InputError(`${what}. Known are ${known} and .zip files of them.`);
 }
 
-async function openScene(source: Source, { library, onProgress }: Options): Promise<Made> {
-    onProgress?.(`Reading ${baseOf(source.name)}`);
+async function openScene(source: Source, { library }: Options): Promise<Made> {
     const title = titleOf(source);
     return said(source, async () => {
         const bytes = contentOf(source);
@@ -121,15 +117,11 @@ async function openScene(source: Source, { library, onProgress }: Options): Prom
     });
 }
 
-async function openMeshes(sources: Source[], { size, maxTriangles, signal, onProgress }: Options): Promise<Made> {
+async function openMeshes(sources: Source[], { size, maxTriangles }: Options): Promise<Made> {
     const models: Model[] = [];
     const titles: string[] = [];
     let failed: unknown;
     for (const source of sources) {
-        onProgress?.(`Reading ${baseOf(source.name)}`);
-        // the page shows it, and can be left
-        await new Promise((resolve) => setTimeout(resolve));
-        signal?.throwIfAborted();
         try {
             const parts = await said(source, () => readMesh(source));
             models.push({ parts, isZUp: formatOf(source) === ".stl", tell: source.tell });
@@ -141,7 +133,6 @@ async function openMeshes(sources: Source[], { size, maxTriangles, signal, onPro
     }
     if (!models.length) throw failed;
     const [scene, owners] = await said(sources[0], () => staged(models, size, maxTriangles));
-    signal?.throwIfAborted();
     const names = owners.map((owner, at) => {
         const own = owners.flatMap((each, place) => (each === owner ? [place] : []));
         return { name: own.length > 1 ? `${titles[owner]} ${own.indexOf(at) + 1}` : titles[owner] };

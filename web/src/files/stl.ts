@@ -23,10 +23,8 @@ export function readStl(source: Source): Triangles {
     if (isText) {
         let lost = 0;
         // names may be of any words
-        const text = textOf(bytes).replace(
-            /^[ \t]*(end)?solid\b(?:(?!\bfacet[ \t]+normal\b).)*/gim,
-            (_, end) => `${end ?? ""}solid `,
-        );
+        const names = /^[ \t]*(end)?solid\b(?:(?!\bfacet[ \t]+normal\b).)*/gim;
+        const text = textOf(bytes).replace(names, (_, end) => `${end ?? ""}solid `);
         data = withPoints(text, source).replace(/\bfacet\b[\s\S]*?endfacet/gi, (facet) =>
             /\b(nan|inf)|1\.#/i.test(facet) && ++lost ? "" : facet,
         );

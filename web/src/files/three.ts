@@ -3,6 +3,7 @@
 import { Matrix4, Vector3, Vector4, type InstancedMesh, type Material, type Matrix3 } from "three";
 import type { Mesh, Object3D, SkinnedMesh } from "three";
 import { InputError } from "../errors.js";
+import { clamped } from "../scene/arithmetic.js";
 import { rowsOf } from "../scene/topology.js";
 import { toSrgb, type Surface, type Triangles } from "./parts.js";
 import { plural } from "./source.js";
@@ -35,7 +36,7 @@ interface Piece {
 
 /** Check how much a file of so many bytes shows, before it is made. */
 export function checkAmount(triangles: number, vertices: number, bytes: number): void {
-    const most = Math.min(Math.max(OF_SMALL, bytes / 8), MAX_TRIANGLES);
+    const most = clamped(bytes / 8, OF_SMALL, MAX_TRIANGLES);
     if (triangles <= most && vertices <= 3 * most) return;
     const what = triangles > most ? "triangles" : "vertices";
     const limit = plural(Math.floor(most), "triangle");
@@ -93,10 +94,8 @@ export function trianglesOf(
             const order = corners.map((_, at) => corners[at + steps[at % 3]]);
             const of = verticesOf(mesh, place, look, first, many);
             positions.set(of.positions, 3 * vertex);
-            faces.set(
-                order.map((each) => (each < many ? vertex + each : NOWHERE)),
-                corner,
-            );
+            const vertices = order.map((each) => (each < many ? vertex + each : NOWHERE));
+            faces.set(vertices, corner);
             colors.set(rowsOf(of.colors, order, 4), 4 * corner);
             normals.set(rowsOf(of.normals, order), 3 * corner);
             uvs.set(rowsOf(of.uvs, order, 2), 2 * corner);
@@ -139,7 +138,7 @@ function verticesOf(
             point.set(turned.x, turned.y, turned.z).transformDirection(cofactors);
             if (point.toArray().every(Number.isFinite)) point.toArray(normals, 3 * row);
         }
-        const level = (at: number): number => (color ? Math.min(Math.max(color.getComponent(vertex, at), 0), 1) : 1);
+        const level = (at: number): number => (color ? clamped(color.getComponent(vertex, at), 0, 1) : 1);
         for (let at = 0; at < 3; at++) colors[4 * row + at] = toSrgb(factor[at] * level(at));
         if (blended && color?.itemSize === 4) colors[4 * row + 3] = Math.round(255 * level(3));
         point.set(uv?.getX(vertex) ?? 0, uv?.getY(vertex) ?? 0, 1);

@@ -27,6 +27,11 @@ export function cross(a: Vector, b: Vector): Vector {
     return [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]];
 }
 
+/** Return the number of a range that is nearest to x. */
+export function clamped(x: number, low: number, high: number): number {
+    return Math.min(Math.max(x, low), high);
+}
+
 /** Return the length of a vector; infinite where a square is beyond what a float holds. */
 export function length(v: readonly number[]): number {
     return Math.sqrt(v.map((x) => x * x).reduce((sum, square) => sum + square));
@@ -39,12 +44,8 @@ export function largest(v: readonly number[]): number {
 
 /** Return the least and the largest of each coordinate of points, three numbers each; zeros without points. */
 export function boundsOf(points: Float64Array): [Vector, Vector] {
-    if (!points.length)
-        return [
-            [0, 0, 0],
-            [0, 0, 0],
-        ];
-    const [low, high] = [rowOf(points, 0), rowOf(points, 0)];
+    const first: Vector = points.length ? rowOf(points, 0) : [0, 0, 0];
+    const [low, high]: [Vector, Vector] = [[...first], [...first]];
     for (let axis = 0; axis < 3; axis++) {
         let [least, most] = [low[axis], high[axis]];
         for (let at = axis; at < points.length; at += 3) {
@@ -58,7 +59,7 @@ export function boundsOf(points: Float64Array): [Vector, Vector] {
 
 /** Return a row of three numbers. */
 export function rowOf(table: Float64Array, index: number): Vector {
-    return [table[3 * index] as number, table[3 * index + 1] as number, table[3 * index + 2] as number];
+    return [table[3 * index], table[3 * index + 1], table[3 * index + 2]];
 }
 
 /** Return a vector or quaternion of any length but zero as one of length 1. */

@@ -136,12 +136,10 @@ const checkedTexture = checkedOnce((texture: given.Texture, where: string): Text
         }
         checkLevels(alpha, `${where}.alpha`);
     }
+    const level = (_: unknown, at: number): number => pixels[channels * Math.floor(at / 3) + (at % 3)];
     return {
         ...own,
-        pixels: Uint8Array.from(
-            { length: 3 * count },
-            (_, at) => pixels[channels * Math.floor(at / 3) + (at % 3)] as number,
-        ),
+        pixels: Uint8Array.from({ length: 3 * count }, level),
         alpha: alpha && Uint8Array.from(alpha),
     };
 });
@@ -225,8 +223,8 @@ function colorsOf(value: given.Rows | given.Color | undefined, count: number, wh
         typeof value === "string" || (check.isList(value) && value.length === 3 && typeof value[0] === "number");
     if (value === undefined || (isOne && count !== 1)) {
         const one = value === undefined ? [...DEFAULT_COLOR, 255] : check.rgba(value, where);
-        const colors = Uint8Array.from({ length: 3 * count }, (_, at) => one[at % 3] as number);
-        return { colors, alpha: unlessOpaque(Array.from({ length: count }, () => one[3] as number)) };
+        const colors = Uint8Array.from({ length: 3 * count }, (_, at) => one[at % 3]);
+        return { colors, alpha: unlessOpaque(Array.from({ length: count }, () => one[3])) };
     }
     const width = check.isList(value) && check.isList(value[0]) && value[0].length === 4 ? 4 : 3;
     const levels = rows(value as given.Rows, where, width);
@@ -383,9 +381,7 @@ function stagedCamera(points: Float64Array, aspect: number): given.Camera {
     if (!(size < LARGEST))
         throw new InputError("the coordinates of the objects are too large for a camera to be placed");
     size ||= 1;
-    const camera = frame(
-        points.map((x) => x / size),
-        { ...VIEW, aspect },
-    );
+    const shape = points.map((x) => x / size);
+    const camera = frame(shape, { ...VIEW, aspect });
     return { ...camera, eye: times(size, camera.eye), target: times(size, camera.target) };
 }

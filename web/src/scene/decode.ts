@@ -59,11 +59,8 @@ function withGround(scene: Scene): Scene[] {
     const [red, green, blue] = last.mesh.colors as Uint8Array;
     const color: Rgb = [red, green, blue];
     const ground: Ground = { color, height, radius, center: [x, z] };
-    return [ground, { ...ground, inner }].map((each) => ({
-        ...scene,
-        objects: scene.objects.slice(0, -1),
-        ground: each,
-    }));
+    const objects = scene.objects.slice(0, -1);
+    return [ground, { ...ground, inner }].map((each) => ({ ...scene, objects, ground: each }));
 }
 
 function sceneOf(reader: Reader): Scene {

@@ -53,9 +53,22 @@ export function encode(scene: Scene, name: FunctionName = "render", tile?: Recta
         throw new InputError(isTiled(name) ? `${name} needs a tile` : `${name} takes no tile; renderTile does`);
     }
     const rectangle = tile ? checkedTile(tile, checked) : [];
-    const selector = new Uint8Array(4);
-    new DataView(selector.buffer).setUint32(0, FUNCTIONS[name]);
-    return joined([selector, words([WORD * (1 + rectangle.length), ...rectangle]), ...encodeScene(fit(checked))]);
+    return joined([
+        selectorOf(FUNCTIONS[name]),
+        words([WORD * (1 + rectangle.length), ...rectangle]),
+        ...encodeScene(fit(checked)),
+    ]);
+}
+
+/** Return the four bytes of a selector. */
+export function selectorOf(number: number): Uint8Array {
+    return long(number);
+}
+
+/** Return the function that a call is of. */
+export function functionOf(call: Uint8Array): FunctionName | undefined {
+    const selector = call.length < 4 ? -1 : new DataView(call.buffer, call.byteOffset).getUint32(0);
+    return (Object.keys(FUNCTIONS) as FunctionName[]).find((name) => FUNCTIONS[name] === selector);
 }
 
 /** Return whether a function takes a Rectangle. */
@@ -100,12 +113,10 @@ function encodeScene(scene: FittedScene): Uint8Array[] {
 /** Return the fields that the structs do not have: records in ascending order of kind and index. */
 function extensions(scene: CheckedScene): Uint8Array {
     const made: [kind: number, index: number, content: Uint8Array][] = [];
-    const add = (kind: number, index: number, ...content: (Uint8Array | readonly number[])[]): void =>
-        void made.push([
-            kind,
-            index,
-            joined(content.map((part) => (part instanceof Uint8Array ? part : Uint8Array.from(part)))),
-        ]);
+    const add = (kind: number, index: number, ...content: (Uint8Array | readonly number[])[]): void => {
+        const parts = content.map((part) => (part instanceof Uint8Array ? part : Uint8Array.from(part)));
+        made.push([kind, index, joined(parts)]);
+    };
     scene.lights.forEach(({ cone, shadow }, index) => {
         if (shadow) add(records.SHADOW, index, words([shadowRule(scene)]));
         if (!cone) return;
@@ -118,11 +129,8 @@ function extensions(scene: CheckedScene): Uint8Array {
         if (!isOpaque(object)) add(records.OPACITY_OF, index, long(rint(opacity * OPAQUE)));
         if (texture && mesh.uvs) {
             const { uvs } = mesh;
-            add(
-                records.TEXTURE_OF,
-                index,
-                about(`objects[${index}]`, () => packTexture(texture, uvs)),
-            );
+            const packed = about(`objects[${index}]`, () => packTexture(texture, uvs));
+            add(records.TEXTURE_OF, index, packed);
         }
         if (texture?.alpha) add(records.ALPHA_OF, index, packAlpha(texture, texture.alpha));
         if (mesh.opacities) {
@@ -131,12 +139,8 @@ function extensions(scene: CheckedScene): Uint8Array {
         }
         if (fade) {
             const within = (each: number, most: bigint): bigint => (q32(each) < most ? q32(each) : most);
-            add(
-                records.GROUND,
-                index,
-                range(within(fade[0], MAX_INNER_FADE), within(fade[1], MAX_FADE)),
-                longs([0, 0]),
-            );
+            const radii = range(within(fade[0], MAX_INNER_FADE), within(fade[1], MAX_FADE));
+            add(records.GROUND, index, radii, longs([0, 0]));
         }
         if (emission.some(Boolean)) add(records.EMISSION_OF, index, words([rgb(emission)]));
     });

@@ -5,6 +5,7 @@ import { InputError } from "../errors.js";
 import {
     add,
     boundsOf,
+    clamped,
     cross,
     dot,
     exponentOf,
@@ -13,6 +14,7 @@ import {
     powerOfTwo,
     rint,
     rotation,
+    rowOf,
     subtract,
     times,
     unit,
@@ -175,7 +177,7 @@ function factorOf(scene: Scene): number {
     if (scene.fog) reach = Math.max(reach, Math.min(scene.fog.far, 1024 * reach));
     let exponent = reach ? constant.REACH_EXPONENT - exponentOf(reach) : 0;
     if (size) exponent = Math.min(exponent, constant.SIZE_EXPONENT - exponentOf(size));
-    return powerOfTwo(Math.min(Math.max(exponent, -1000), 1000));
+    return powerOfTwo(clamped(exponent, -1000, 1000));
 }
 
 /** Return half the largest side of an object, and how far any reaches from the eye along an axis. */
@@ -219,12 +221,10 @@ function moveCamera(camera: Camera, factor: number): Camera {
 function nearPlane(scene: Scene, factor: number, most: number): number {
     const { projection, near } = scene.camera;
     if (projection === "orthographic") {
-        return Math.min(
-            Math.max(near === undefined ? -Infinity : near * factor, -constant.MAX_COORDINATE),
-            constant.MAX_COORDINATE,
-        );
+        const wanted = near === undefined ? -Infinity : near * factor;
+        return clamped(wanted, -constant.MAX_COORDINATE, constant.MAX_COORDINATE);
     }
-    if (near !== undefined) return Math.min(Math.max(near * factor, constant.STEP), constant.MAX_COORDINATE);
+    if (near !== undefined) return clamped(near * factor, constant.STEP, constant.MAX_COORDINATE);
     const { farthest } = extentOf(scene);
     return farthest ? Math.max(Math.min(farthest * factor * constant.NEAR_PART, most), constant.STEP) : 1;
 }
@@ -239,7 +239,7 @@ function moveLight(light: Light, eye: Vector, factor: number): Light {
 
 function moveFog(fog: Fog, factor: number): Fog {
     // nothing is as far away as the largest distances
-    const far = Math.min(Math.max(fog.far * factor, constant.STEP), constant.MAX_COORDINATE);
+    const far = clamped(fog.far * factor, constant.STEP, constant.MAX_COORDINATE);
     return { ...fog, near: Math.min(fog.near * factor, constant.MAX_COORDINATE - 1), far };
 }
 
@@ -296,18 +296,13 @@ function stepsOf(
         if (isCoarse(dot(subtract(middle, camera.eye), forward) - 2 * size - slack)) return MAX_SHORT;
         const places = worldPositions([object]);
         let nearest = Infinity;
-        for (let at = 0; at < places.length; at += 3) {
-            const [x, y, z] = [
-                places[at] - camera.eye[0],
-                places[at + 1] - camera.eye[1],
-                places[at + 2] - camera.eye[2],
-            ];
-            nearest = Math.min(nearest, x * forward[0] + y * forward[1] + z * forward[2]);
+        for (let row = 0; 3 * row < places.length; row++) {
+            nearest = Math.min(nearest, dot(subtract(rowOf(places, row), camera.eye), forward));
         }
         if (isCoarse(nearest)) return MAX_SHORT;
     }
     // the contract's matrix is rounded to 2^-32 units a step: with more steps that would be more than one of them
-    return Math.trunc(Math.min(Math.max(Math.sqrt((size * factor) / constant.STEP), MAX_SHORT), MAX_WIDE));
+    return Math.trunc(clamped(Math.sqrt((size * factor) / constant.STEP), MAX_SHORT, MAX_WIDE));
 }
 
 /** Return the scale up to which the contracts draw a mesh of these coordinates, which depends on their bits. */

@@ -6,12 +6,12 @@ import { checkedMesh, type Mesh } from "./checked.js";
 import { remembered } from "./memory.js";
 
 /** Bits of the first byte. */
-const NORMALS = 1;
-const WIDE = 2;
+export const NORMALS = 1;
+export const WIDE = 2;
 /** Bytes before the vertices. */
-const HEADER = 5;
+export const HEADER = 5;
 /** Bytes of a face. */
-const FACE = 6;
+export const FACE = 6;
 
 const MAX_COUNT = 65535;
 /** The largest coordinates, of 16 and of 24 bits. */
@@ -40,14 +40,14 @@ export const pack = remembered((mesh: Mesh, smooth: boolean): Uint8Array => {
     let place = HEADER;
     for (let vertex = 0; vertex < count; vertex++) {
         for (let axis = 0; axis < 3; axis++) {
-            const coordinate = positions[3 * vertex + axis] as number;
+            const coordinate = positions[3 * vertex + axis];
             if (wide) view.setInt8(place++, coordinate >> 16);
             view.setUint16(place, coordinate & 0xffff);
             place += 2;
         }
-        for (let channel = 0; channel < 3; channel++) view.setUint8(place++, colors[3 * vertex + channel] as number);
+        for (let channel = 0; channel < 3; channel++) view.setUint8(place++, colors[3 * vertex + channel]);
         if (normals) {
-            view.setUint32(place, normals[vertex] as number);
+            view.setUint32(place, normals[vertex]);
             place += 4;
         }
     }
@@ -175,7 +175,7 @@ function packedNormals({ positions, faces, normals }: Mesh): Uint32Array {
     const words = new Uint32Array(units.length / 3);
     units.forEach((x, index) => {
         const vertex = Math.floor(index / 3);
-        words[vertex] = (words[vertex] as number) | ((rint(x * NORMAL_UNIT) & 1023) << (22 - 10 * (index % 3)));
+        words[vertex] = words[vertex] | ((rint(x * NORMAL_UNIT) & 1023) << (22 - 10 * (index % 3)));
     });
     return words;
 }

@@ -61,22 +61,11 @@ export function isFlat({ positions, faces, normals }: Mesh): boolean {
 /**
  * Return a unit normal for each corner of each face: the mean of the faces around the corner, up to the next creases,
  * weighted by area and angle. It points to the front of its face, also where its neighbours are wound the other way.
- *
- * groups: the smoothing group of each face, in place of `degrees`: edges within a group are smooth; none are in group 0.
  */
-export function cornerNormals(
-    positions: Float64Array,
-    faces: Uint32Array,
-    degrees: number | null,
-    groups?: ArrayLike<number>,
-): Float64Array {
+export function cornerNormals(positions: Float64Array, faces: Uint32Array, degrees: number | null): Float64Array {
     const surface = surfaceOf(positions, faces);
     const { corners, areas, angles, sizes, units, pairs, count } = surface;
-    const isHard = groups
-        ? Uint8Array.from(pairs.here, (face, pair) =>
-              Number(groups[face] !== groups[pairs.there[pair]] || !groups[face]),
-          )
-        : creasesOf(surface, degrees);
+    const isHard = creasesOf(surface, degrees);
     const patches = new Parts(corners.length);
     pairs.one.forEach((side, pair) => {
         if (isHard[pair]) return;

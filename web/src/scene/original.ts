@@ -1,7 +1,7 @@
 // Scenes of the original Shackled contracts. src/shackled/scene/_files/original.py says what of them is exact.
 
 import { InputError } from "../errors.js";
-import { dot, largest, rint, type Vector } from "./arithmetic.js";
+import { clamped, dot, largest, rint, type Vector } from "./arithmetic.js";
 import { MAX_SIDE } from "./fields.js";
 import * as check from "./checks.js";
 import { Table } from "./table.js";
@@ -77,9 +77,9 @@ function lightOf(lighting: Table): { material: given.Material; lights: given.Lig
     const material = {
         shading: "flat",
         ambient: 1,
-        diffuse: coefficient(diffuse * (mean(diffuseColor) / mean(hue))),
-        specular: coefficient(specular * (largest(specularColor) / 255)),
-        shininess: rint(Math.min(Math.max(lighting.number("inverseShininess") ?? 1, 1), 128)),
+        diffuse: clamped(diffuse * (mean(diffuseColor) / mean(hue)), 0, 4),
+        specular: clamped(specular * (largest(specularColor) / 255), 0, 4),
+        shininess: rint(clamped(lighting.number("inverseShininess") ?? 1, 1, 128)),
     } as const;
     return { material, lights: [{ kind: "directional", direction, color: hue }] };
 }
@@ -93,10 +93,6 @@ function lightColor(lighting: Table, key: string): Vector {
 
 function mean([x, y, z]: Vector): number {
     return (x + y + z) / 3;
-}
-
-function coefficient(value: number): number {
-    return Math.min(Math.max(value, 0), 4);
 }
 
 function backgroundOf(keys: Table): given.Background {

@@ -3,7 +3,7 @@
 import { InputError } from "../errors.js";
 import type { Vector } from "./arithmetic.js";
 import { MAX_COORDINATE, MAX_LIGHTS, MIN_HALF_HEIGHT } from "./constants.js";
-import { FUNCTIONS, WORD, type FunctionName } from "./encode.js";
+import { FUNCTIONS, WORD, functionOf, type FunctionName } from "./encode.js";
 import { MAX_SIDE } from "./fields.js";
 import { LONG_KINDS, RECORD_HEADER } from "./records.js";
 
@@ -43,7 +43,10 @@ export class Reader {
     constructor(readonly bytes: Uint8Array) {
         if (!(bytes instanceof Uint8Array)) throw new InputError("a call must be a Uint8Array");
         this.view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
-        this.name = this.#functionName();
+        const name = functionOf(bytes);
+        if (!name)
+            throw new InputError(`the call must begin with the selector of ${Object.keys(FUNCTIONS).join(", ")}`);
+        this.name = name;
         this.#scene = this.offset(SELECTOR, SELECTOR, SCENE_WORDS * WORD);
     }
 
@@ -93,13 +96,6 @@ export class Reader {
     refuseExtension(place: number): never {
         const record = place - RECORD_HEADER;
         throw new InputError(`the extension at byte ${record} of the call has the wrong size, or is cut off`);
-    }
-
-    #functionName(): FunctionName {
-        const selector = this.bytes.length < SELECTOR ? -1 : this.view.getUint32(0);
-        const name = (Object.keys(FUNCTIONS) as FunctionName[]).find((each) => FUNCTIONS[each] === selector);
-        if (name) return name;
-        throw new InputError(`the call must begin with the selector of ${Object.keys(FUNCTIONS).join(", ")}`);
     }
 
     /** Return where an offset leads, which is `size` bytes within the call. from: the place that it counts from. */

@@ -2,7 +2,7 @@
 
 import type { MeshoptSimplifier, SimplifierFlags } from "meshoptimizer/simplifier";
 import { InputError, show } from "../errors.js";
-import { boundsOf, largest, subtract } from "./arithmetic.js";
+import { boundsOf, clamped, largest, subtract } from "./arithmetic.js";
 import type { Mesh } from "./checked.js";
 import { remembered } from "./memory.js";
 import { unitRows } from "./mesh.js";
@@ -75,7 +75,7 @@ function simplified(mesh: Mesh, count: number, flags: SimplifierFlags[] | undefi
     const kept = faces.subarray(0, left);
     const positions = mesh.positions.map((x, at) => (after[at] === before[at] ? x : low[at % 3] + size * after[at]));
     const whole = meshOf(positions, kept, {
-        rgba: Uint8Array.from(columns(0, 4), (x) => 255 * Math.min(Math.max(x, 0), 1) + 0.5),
+        rgba: Uint8Array.from(columns(0, 4), (x) => 255 * clamped(x, 0, 1) + 0.5),
         normals: mesh.normals && unitRows(columns(4, 7)),
         uvs: mesh.uvs && columns(width - 2, width),
     });

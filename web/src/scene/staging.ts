@@ -1,7 +1,7 @@
 // The camera and the light of scenes that have none: all objects in the picture, seen from a little above.
 
 import { InputError } from "../errors.js";
-import { add, boundsOf, cosine, cross, sine, subtract, tangent, times, type Vector } from "./arithmetic.js";
+import { add, boundsOf, cosine, cross, dot, rowOf, sine, subtract, tangent, times, type Vector } from "./arithmetic.js";
 import { number } from "./checks.js";
 import { FIELDS } from "./fields.js";
 import type { DirectionalLight, Projection } from "./types.js";
@@ -57,11 +57,8 @@ export function frame(
     view: Viewpoint,
 ): { eye: Vector; target: Vector; up: Vector; projection: Projection; halfHeight: number } {
     const [right, up, back] = viewAxes(view.azimuth, view.elevation);
-    const [x, y, z] = [right, up, back].map(([a, b, c]) =>
-        Float64Array.from(
-            { length: points.length / 3 },
-            (_, at) => points[3 * at] * a + points[3 * at + 1] * b + points[3 * at + 2] * c,
-        ),
+    const [x, y, z] = [right, up, back].map((axis) =>
+        Float64Array.from({ length: points.length / 3 }, (_, at) => dot(rowOf(points, at), axis)),
     );
     const free = 1 - view.margin;
     let halfHeight = view.halfHeight;
@@ -75,16 +72,12 @@ export function frame(
         // a point is in the picture if |x - x0| <= slope * (z0 - z): both sides are tight for the nearest z0, and likewise
         // for y
         const slope = number(halfHeight, "the half height", 2 ** -10, 2 ** 10) * free;
-        const sides = (
-            [
-                [x, slope * view.aspect],
-                [y, slope],
-            ] as const
-        ).map(([a, s]) => ({
+        const side = (a: Float64Array, s: number): { high: number; low: number; slope: number } => ({
             high: max(a.map((each, index) => each / s + z[index])),
             low: max(a.map((each, index) => z[index] - each / s)),
             slope: s,
-        }));
+        });
+        const sides = [side(x, slope * view.aspect), side(y, slope)];
         const z0 = Math.max(...sides.map(({ high, low }) => (high + low) / 2));
         const [x0, y0] = sides.map(({ high, low, slope: s }) => (s * (high - low)) / 2) as [number, number];
         const [low, high] = boundsOf(points);

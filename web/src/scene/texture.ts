@@ -38,10 +38,8 @@ export const packTexture = remembered((texture: Texture, uvs: Float64Array): Uin
 
 /** Return the bytes of the record ALPHA of a texture that has an alpha, in whole words. */
 export const packAlpha = remembered((texture: Texture, alpha: Uint8Array): Uint8Array => {
-    const image = packImage(
-        texture,
-        Uint8Array.from({ length: 3 * alpha.length }, (_, at) => alpha[Math.floor(at / 3)] as number),
-    );
+    const greys = Uint8Array.from({ length: 3 * alpha.length }, (_, at) => alpha[Math.floor(at / 3)]);
+    const image = packImage(texture, greys);
     const bytes = words(1 + image.length);
     bytes[0] = texture.cutoff;
     bytes.set(image, 1);
@@ -52,11 +50,8 @@ export const packAlpha = remembered((texture: Texture, alpha: Uint8Array): Uint8
 export function unpackTexture(packed: Uint8Array, vertices: number): { texture: Texture; uvs: Float64Array } {
     const { texture, end } = unpackImage(packed, 6 * vertices);
     const view = new DataView(packed.buffer, packed.byteOffset + end);
-    const uvs = Float64Array.from(
-        { length: 2 * vertices },
-        (_, at) => (view.getInt8(3 * at) * 65536 + view.getUint16(3 * at + 1)) / UV_ONE,
-    );
-    return { texture, uvs };
+    const uv = (_: unknown, at: number): number => (view.getInt8(3 * at) * 65536 + view.getUint16(3 * at + 1)) / UV_ONE;
+    return { texture, uvs: Float64Array.from({ length: 2 * vertices }, uv) };
 }
 
 /** Return the texture with the alpha of what `packAlpha` made, or would make otherwise. */
@@ -113,7 +108,7 @@ function packImage({ width, height, filter, wrap }: Texture, pixels: Uint8Array)
     const numbers = new Map(palette.map((color, index) => [color, index]));
     texels.forEach((color, texel) => {
         const [place, at] = [begin + ((texel * bits) >> 3), 8 - bits - ((texel * bits) & 7)];
-        bytes[place] = (bytes[place] as number) | ((numbers.get(color) as number) << at);
+        bytes[place] = bytes[place] | ((numbers.get(color) as number) << at);
     });
     return bytes;
 }

@@ -39,10 +39,8 @@ export function numbered(rows: Float64Array, width: number): Numbered {
 /** Return the number of the point of each vertex: vertices at one place are one point. */
 export function pointsOf(positions: Float64Array): Numbered {
     // + 0: no -0
-    return numbered(
-        positions.map((x) => x + 0),
-        3,
-    );
+    const points = positions.map((x) => x + 0);
+    return numbered(points, 3);
 }
 
 /** Return rows of a table. */

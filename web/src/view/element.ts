@@ -3,13 +3,14 @@
 import { InputError } from "../errors.js";
 import { Scheduler, type Job, type Plan } from "../draw/scheduler.js";
 import type { Size } from "../draw/speed.js";
-import { fetchBytes, loadAssets, type Assets, type AssetSources } from "../evm/assets.js";
+import { fetchBytes, keptOrLoaded, loadAssets, type Assets, type AssetSources } from "../evm/assets.js";
+import { clamped } from "../scene/arithmetic.js";
 import { MAX_SIDE } from "../scene/fields.js";
 import type { CallFacts } from "../turn.js";
 import script from "worker:view/worker.ts";
 import { Pool, started } from "../workers/pool.js";
 import { Cancelled } from "../workers/protocol.js";
-import { listen, type Change } from "./gestures.js";
+import { listen, type Change, type Gestures } from "./gestures.js";
 import type { Checked, Drawn, Requests, Source, Wish } from "./protocol.js";
 import { MAX_FILE } from "../scene/call_file.js";
 import { STYLE } from "./style.js";
@@ -166,10 +167,8 @@ export class ShackledView extends HTMLElement {
             try {
                 const { width, height } = this.#facts;
                 const wish = { turn: this.#turn, width, height, samples: 1, hashed: false } as const;
-                checked = await this.#workers.ask("check", { url, wish, call: this.#call }, "check", {
-                    signal: this.#asked.signal,
-                    limit: CHECK_TIMEOUT,
-                });
+                const options = { signal: this.#asked.signal, limit: CHECK_TIMEOUT };
+                checked = await this.#workers.ask("check", { url, wish, call: this.#call }, "check", options);
             } catch (error) {
                 const why = error instanceof Cancelled ? "the scene changed" : messageOf(error);
                 checked = { outcome: "unknown", message: `The check was interrupted: ${why}.` };
@@ -192,15 +191,12 @@ export class ShackledView extends HTMLElement {
         this.#connected = new AbortController();
         const { signal } = this.#connected;
         const { stage } = this.#parts;
-        listen(
-            stage,
-            {
-                change: (change, held) => this.#change(change, held),
-                release: (speed) => this.#release(speed),
-                reset: () => this.reset(),
-            },
-            signal,
-        );
+        const gestures: Gestures = {
+            change: (change, held) => this.#change(change, held),
+            release: (speed) => this.#release(speed),
+            reset: () => this.reset(),
+        };
+        listen(stage, gestures, signal);
         this.#listenToFiles(signal);
         const sizes = new ResizeObserver(() => {
             const { canvas, stage } = this.#parts;
@@ -276,14 +272,8 @@ export class ShackledView extends HTMLElement {
     #assets(): Promise<Assets> {
         const { assets } = ShackledView;
         const own = { evm: this.getAttribute("evm"), contracts: this.getAttribute("contracts") };
-        const key = JSON.stringify(own);
-        const known = ShackledView.#loaded.get(key);
-        if (known) return known;
-        const loaded = loadAssets({ evm: own.evm ?? assets.evm, contracts: own.contracts ?? assets.contracts });
-        ShackledView.#loaded.set(key, loaded);
-        // what could not be loaded may be there later
-        loaded.catch(() => ShackledView.#loaded.delete(key));
-        return loaded;
+        const load = () => loadAssets({ evm: own.evm ?? assets.evm, contracts: own.contracts ?? assets.contracts });
+        return keptOrLoaded(ShackledView.#loaded, JSON.stringify(own), load);
     }
 
     #listenToFiles(signal: AbortSignal): void {
@@ -400,13 +390,12 @@ export class ShackledView extends HTMLElement {
     /** Take a turn, within its range, and draw frames until the viewer rests. */
     #face({ azimuth, elevation, zoom }: Change, atRest = false): void {
         const [low, high] = this.#facts?.elevations ?? [-90, 90];
-        const clamp = (value: number, least: number, most: number): number => Math.min(Math.max(value, least), most);
         if (![azimuth, elevation, zoom].every(Number.isFinite)) throw new InputError("turn must consist of numbers");
         this.#turn = {
             // within half a turn, so that numbers stay short
             azimuth: azimuth - 360 * Math.round(azimuth / 360),
-            elevation: clamp(elevation, low, high),
-            zoom: clamp(zoom, 1 / MAX_ZOOM, MAX_ZOOM),
+            elevation: clamped(elevation, low, high),
+            zoom: clamped(zoom, 1 / MAX_ZOOM, MAX_ZOOM),
         };
         const { reset } = this.#parts;
         reset.hidden = !(this.#turn.azimuth || this.#turn.elevation || this.#turn.zoom !== 1);
@@ -465,11 +454,10 @@ export class ShackledView extends HTMLElement {
 
     /**
      * Return the size of the smoothed picture at rest: that of its place on the screen, at least that of the call, and the
-     * latter where it would take too long. Of exact pixels, the call's.
+     * latter where it would take too long.
      */
     #shownSize(): Size {
         const { width, height } = this.#facts ?? { width: 1, height: 1 };
-        if (this.hasAttribute("exact")) return [width, height];
         const wanted = (this.#parts.stage.clientWidth * devicePixelRatio) / width;
         const scale = Math.min(wanted, MAX_SIDE / 2 / Math.max(width, height));
         if (scale <= 1) return [width, height];
@@ -482,11 +470,8 @@ export class ShackledView extends HTMLElement {
         bar.hidden = false;
         const { gas, width, height, milliseconds, sha256 } = picture;
         const words = [`${width} x ${height} pixels`, `${gas.toLocaleString("en")} gas`, duration(milliseconds)];
-        figures.replaceChildren(
-            ...[...words, ...(shown ? [`smoothed to ${shown[0]} x ${shown[1]}`] : [])].map((text) =>
-                create("span", { text }),
-            ),
-        );
+        if (shown) words.push(`smoothed to ${shown[0]} x ${shown[1]}`);
+        figures.replaceChildren(...words.map((text) => create("span", { text })));
         hash.textContent = sha256 ?? "not available: the page is neither from https nor from this machine";
         exact.hidden = 2 * Math.max(width, height) > MAX_SIDE;
         const detail: PictureDetail = { gas, width, height, milliseconds, sha256 };

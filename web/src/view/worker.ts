@@ -3,8 +3,8 @@
 import { InputError } from "../errors.js";
 import { CallError, ContractEvm } from "../evm/contracts.js";
 import { NodeError, askNode, readStored } from "../evm/rpc.js";
-import { drawCall, functionOf, hashPixels, withFunction } from "../picture.js";
-import { isTiled } from "../scene/encode.js";
+import { drawCall, hashPixels, withFunction } from "../picture.js";
+import { functionOf, isTiled } from "../scene/encode.js";
 import { describeCall, resizeCall, turnCall } from "../turn.js";
 import { serve, type Asking } from "../workers/serve.js";
 import type { Checked, Drawn, Opened, Requests, Source, Supplies, Wish } from "./protocol.js";
@@ -65,8 +65,8 @@ function halved(pixels: Uint8ClampedArray, width: number): Uint8ClampedArray<Arr
         for (let x = y; x < y + row; x += 8, to += 4) {
             for (let channel = 0; channel < 4; channel++) {
                 const at = x + channel;
-                const [a, b, c, d] = [pixels[at], pixels[at + 4], pixels[at + row], pixels[at + row + 4]] as number[];
-                result[to + channel] = ((a as number) + (b as number) + (c as number) + (d as number) + 2) >> 2;
+                const sum = pixels[at] + pixels[at + 4] + pixels[at + row] + pixels[at + row + 4];
+                result[to + channel] = (sum + 2) >> 2;
             }
         }
     }
@@ -81,12 +81,9 @@ async function check({ url, wish, call: opened }: Requests["check"][0]): Promise
         const own = drawCall(machine(), call).bmp;
         const equal = own.length === asked.bmp.length && own.every((byte, index) => byte === asked.bmp[index]);
         const who = asked.deployed ? "the contract deployed on its chain" : "the contract's code, sent along";
-        return equal
-            ? {
-                  outcome: "equal",
-                  message: `Equal: all ${own.length.toLocaleString("en")} bytes, computed there by ${who}.`,
-              }
-            : { outcome: "different", message: `Different: ${who}, computed other bytes there.` };
+        if (!equal) return { outcome: "different", message: `Different: ${who}, computed other bytes there.` };
+        const count = own.length.toLocaleString("en");
+        return { outcome: "equal", message: `Equal: all ${count} bytes, computed there by ${who}.` };
     } catch (error) {
         if (error instanceof CallError) return { outcome: "different", message: `Different: there, ${error.message}.` };
         if (error instanceof NodeError || error instanceof InputError) {

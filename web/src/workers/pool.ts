@@ -19,11 +19,10 @@ export interface Source<R> {
     supplies(lacks: readonly string[], kind: keyof R, value: object): Promise<ReadonlyMap<string, unknown>>;
 }
 
-/** limit: milliseconds that the answer may take. onProgress: is told what the worker does. */
+/** limit: milliseconds that the answer may take. */
 export interface AskOptions {
     signal?: AbortSignal | undefined;
     limit?: number;
-    onProgress?: ((what: string) => void) | undefined;
 }
 
 interface Job<R> extends AskOptions {
@@ -172,7 +171,6 @@ export class Pool<R extends Table<R>, L extends string> {
         worker.onmessage = ({ data }) => {
             const { job } = hand;
             if (job?.id !== data.id) return;
-            if ("progress" in data) return job.onProgress?.(data.progress);
             if ("lacks" in data) return void this.#supply(worker, job, data.lacks);
             if ("error" in data) job.reject(errorOf(data.error));
             else job.resolve(data.value);

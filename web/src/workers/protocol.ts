@@ -12,10 +12,8 @@ export type Message =
     | { keys: readonly string[]; error: Told }
     | { id: number; kind: string; value: unknown };
 
-/** From a worker, of a request: what it does, what it lacks, its answer or an error. */
-export type Reply = { id: number } & (
-    { progress: string } | { lacks: readonly string[] } | { value: unknown } | { error: Told }
-);
+/** From a worker, of a request: what it lacks, its answer or an error. */
+export type Reply = { id: number } & ({ lacks: readonly string[] } | { value: unknown } | { error: Told });
 
 /** An error. */
 export interface Told {

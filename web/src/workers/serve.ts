@@ -2,9 +2,8 @@
 
 import { errorOf, toldOf, type Message, type Reply, type Table } from "./protocol.js";
 
-/** What a handler can tell the page, and ask of it. */
+/** What a handler can ask of the page. */
 export interface Asking {
-    onProgress(what: string): void;
     /** Return things that the page has, by their keys. InputError where it has not. */
     need(keys: readonly string[]): Promise<unknown[]>;
 }
@@ -45,7 +44,6 @@ export function answering<R extends Table<R>>(
         }
         const { id, kind, value } = message;
         const page: Asking = {
-            onProgress: (progress) => tell({ id, progress }),
             need: (keys) => {
                 const lacks = keys.filter((key) => !lacking.has(key));
                 if (lacks.length) tell({ id, lacks });

@@ -1,31 +1,28 @@
 """shackled token deploy and demo: new collections"""
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from ...base.checks import choice
 from ...base.whole_file import check_output_folder
+from ...datasets._pieces import Piece
+from ...deploy._quote import Quote
+from ...deploy._transactor import Receipt, Transactor
 from ...errors import InputError
 from ...ethereum._amounts import parse_ether
-from ...tokens._collection import KINDS
-from ...tokens._icons import ICON_PRICE, SCALE
+from ...tokens._allow_list import read_allow_list
+from ...tokens._collection import KINDS, Collection, CollectionKind
+from ...tokens._demo import run_demo
+from ...tokens._icons import ICON_PRICE, SCALE, check_sale, chosen_pieces, token_scene
+from ...tokens._launch import CollectionTerms, Launch, launch, plan_launch, plan_setup
+from ...tokens._reveal import check_randomness
+from ...tokens._storage import SceneToStore, StoragePlan, plan_storage, store
 from ..chain_options import JSON, MAX_FEE, NodeOptions, PayerOptions, address, print_step
 from ..option import argument, option
 from ..output import print_json, print_line, print_note
 from .options import ROYALTY
-
-if TYPE_CHECKING:
-    from ...datasets._pieces import Piece
-    from ...deploy._quote import Quote
-    from ...deploy._transactor import Receipt, Transactor
-    from ...tokens._collection import Collection, CollectionKind
-    from ...tokens._launch import CollectionTerms, Launch
-    from ...tokens._storage import StoragePlan
 
 
 @dataclass(frozen=True)
@@ -55,8 +52,6 @@ class TermsOptions:
 
     def pieces(self, kind: CollectionKind) -> list[Piece]:
         """Return the icons of a collection of icons. InputError for options of icons for another one."""
-        from ...tokens._icons import check_sale, chosen_pieces
-
         if kind.hidden:
             if self.icons is not None or self.supply is not None:
                 raise InputError("--icons and --supply are for collections of icons")
@@ -67,16 +62,12 @@ class TermsOptions:
 
     def list_wanted(self) -> tuple[bytes, str | None] | None:
         """Return the root of the allow list and who signs permissions; None for neither."""
-        from ...tokens._allow_list import read_allow_list
-
         if self.allow_list is None:
             return None if self.signer is None else (bytes(32), self.signer)
         return read_allow_list(self.allow_list).root, self.signer
 
     def terms(self, payer: str, has_list: bool, has_icons: bool) -> CollectionTerms:
         """Return the terms of the contract. InputError for another owner where the owner has to do more."""
-        from ...tokens._launch import CollectionTerms
-
         owner = self.owner or payer
         if owner != payer and has_list:
             raise InputError(f"only the owner can set the allow list: leave out --owner, or let {owner} set it later")
@@ -100,11 +91,6 @@ def deploy(
     as_json: bool = JSON,
 ) -> None:
     """Deploy a collection and the contracts that it calls. Prints the price first and skips what exists."""
-    from ...tokens._icons import token_scene
-    from ...tokens._launch import plan_launch, plan_setup
-    from ...tokens._reveal import check_randomness
-    from ...tokens._storage import SceneToStore, plan_storage
-
     kind = KINDS[collection]
     list_wanted, chosen = options.list_wanted(), options.pieces(kind)
     connection = node.connect()
@@ -161,9 +147,6 @@ def _launch(
     plan: Launch, storage: StoragePlan | None, setup: Mapping[str, Quote], transactor: Transactor
 ) -> tuple[Collection, Receipt | None, int]:
     """Send what is missing; return the collection, the receipt of its deployment, and the gas of all."""
-    from ...tokens._launch import launch
-    from ...tokens._storage import store
-
     spent: list[int] = []
 
     def report(name: str, address: bytes, receipt: Receipt) -> None:
@@ -189,8 +172,6 @@ def demo(
 
     It uses the keys that anvil publishes, and refuses any other chain.
     """
-    from ...tokens._demo import run_demo
-
     check_output_folder(output)
     tokens = run_demo(NodeOptions(rpc).connect(), output, print_note, max_fee)
     print_line(f"{output / 'gallery.html'}: {len(tokens)} tokens, read through tokenURI")

@@ -1,22 +1,30 @@
 """shackled token edition: scenes that anyone can add to one collection"""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 from ...base.values import plural
+from ...deploy._contract import local_chain
 from ...errors import VerificationError
 from ...ethereum._amounts import amount, ether, parse_ether
-from ...tokens._editions import OPEN
+from ...studio._storage import STUDIO, stored_codes
+from ...tokens._collection import Collection
+from ...tokens._contract import minted_tokens, withdrawn
+from ...tokens._editions import (
+    OPEN,
+    EditionTerms,
+    add_gas,
+    added_number,
+    edition_at,
+    editions_of,
+    open_editions,
+    withdraw_call,
+)
+from ...tokens._verify import check_collection_code
 from ..chain_options import JSON, NodeOptions, PayerOptions, address
 from ..option import argument, option
 from ..output import print_json, print_line, print_table
 from ..progress import LateBar
 from .options import MAX_NUMBER, POINTER, ROYALTY, SCALE
-
-if TYPE_CHECKING:
-    from ...tokens._collection import Collection
 
 NUMBER = argument("Number of the edition.", "EDITION", min=0, max=MAX_NUMBER)
 
@@ -32,9 +40,6 @@ class EditionsOptions(NodeOptions):
 
         exact: also compare its code, before something is added or paid. VerificationError if it differs.
         """
-        from ...tokens._editions import open_editions
-        from ...tokens._verify import check_collection_code
-
         collection = open_editions(self.connect(), self.collection)
         if exact:
             try:
@@ -63,11 +68,6 @@ def add(
     as_json: bool = JSON,
 ) -> None:
     """Add a scene as an edition whose tokens anyone can mint. It cannot be changed later."""
-    from ...deploy._contract import local_chain
-    from ...studio._storage import STUDIO, stored_codes
-    from ...tokens._contract import minted_tokens
-    from ...tokens._editions import EditionTerms, add_gas, added_number, edition_at
-
     terms = EditionTerms(name, pointer, price, OPEN if supply is None else supply, royalty, copies, scale, model)
     collection = which.open(exact=True)
     scene, studio = bytes.fromhex(terms.scene[2:]), local_chain().address(STUDIO)
@@ -96,9 +96,6 @@ def mint(
     as_json: bool = JSON,
 ) -> None:
     """Mint tokens of an edition. Prints the price first."""
-    from ...tokens._contract import minted_tokens
-    from ...tokens._editions import edition_at
-
     collection = which.open(exact=True)
     chosen = edition_at(collection, edition)
     call = collection.contract.prepare("mint", edition, quantity, value=quantity * chosen.price)
@@ -121,8 +118,6 @@ def list_(
     as_json: bool = JSON,
 ) -> None:
     """List the editions, with the amounts that their artists can withdraw."""
-    from ...tokens._editions import editions_of
-
     collection = which.open()
     with LateBar("reading editions") as bar:
         found = editions_of(collection, artist, bar.set)
@@ -157,8 +152,6 @@ def list_(
 
 def close(which: EditionsOptions, payer: PayerOptions, edition: int = NUMBER) -> None:
     """Close an edition: no more tokens can be minted. Cannot be undone. For its artist."""
-    from ...tokens._editions import edition_at
-
     collection = which.open()
     chosen = edition_at(collection, edition)
     title = f"close {chosen.name} with {plural(chosen.minted, 'token')}; this cannot be undone"
@@ -173,9 +166,6 @@ def withdraw(
     to: str | None = address("--to", "Receiver; default: you."),
 ) -> None:
     """Withdraw the proceeds of your editions."""
-    from ...tokens._contract import withdrawn
-    from ...tokens._editions import edition_at, editions_of, withdraw_call
-
     receiver = to or payer.address
     collection = which.open()
     if editions:

@@ -1,20 +1,15 @@
 """Options that the commands of `shackled token` share: which collection."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 from ...base.checks import number
 from ...chain._address_book import AddressBook
 from ...errors import InputError
 from ...ethereum._encoding import checksum_address
-from ...tokens._collection import EDITIONS, KINDS
+from ...tokens._collection import EDITIONS, KINDS, Collection, open_collection
+from ...tokens._editions import open_editions
 from ..chain_options import NodeOptions, parse_checksum_address
 from ..option import argument, option
-
-if TYPE_CHECKING:
-    from ...tokens._collection import Collection
 
 #: The largest number of an argument.
 MAX_NUMBER = 2**64 - 1
@@ -50,9 +45,6 @@ class CollectionOptions(NodeOptions):
 
         or_editions: whether it may be that of the editions, which has no owner and no sale.
         """
-        from ...tokens._collection import open_collection
-        from ...tokens._editions import open_editions
-
         name = self.collection
         if name == EDITIONS.name and not or_editions:
             raise InputError(

@@ -1,7 +1,5 @@
 """Commands of the owner of a collection: the sale, royalties, ownership, icons, and who may mint before the sale"""
 
-from __future__ import annotations
-
 import json
 import time
 from functools import partial
@@ -9,10 +7,16 @@ from pathlib import Path
 
 from ...base.checks import choice, number
 from ...base.whole_file import write_output
+from ...deploy._contract import local_chain
 from ...errors import InputError
 from ...ethereum._amounts import ether, parse_ether
 from ...ethereum._encoding import checksum_address
-from ...tokens._contract import PHASES
+from ...studio._storage import STUDIO, stored_codes
+from ...tokens._allow_list import read_allow_list
+from ...tokens._contract import PHASES, withdrawn
+from ...tokens._icons import SCALE, add_call, check_sale, chosen_pieces, icons_of, token_scene
+from ...tokens._minting import sign_allowance
+from ...tokens._storage import SceneToStore, plan_storage
 from ..chain_options import PayerOptions, SignerOptions, address, parse_checksum_address
 from ..option import argument, is_from_environment, option
 from ..output import print_line
@@ -35,8 +39,6 @@ def withdraw(
     which: CollectionOptions, payer: PayerOptions, to: str | None = address("--to", "Receiver; default: the owner.")
 ) -> None:
     """Withdraw the ether of the sale. For the owner."""
-    from ...tokens._contract import withdrawn
-
     collection = which.open()
     receiver = to or payer.address
     balance = collection.balance()
@@ -93,8 +95,6 @@ def allow_list(
     signer: str | None = address("--signer", "Account that signs permissions; default: unchanged."),
 ) -> None:
     """Print the root of an allow list; with --rpc, set it in a collection. For the owner."""
-    from ...tokens._allow_list import read_allow_list
-
     allowed = read_allow_list(file)
     quantities = allowed.allowances.values()
     print_line(f"root 0x{allowed.root.hex()}, {len(quantities):,} accounts, {sum(quantities):,} tokens")
@@ -119,8 +119,6 @@ def permit(
     days: float = option("--days", "Days until it expires.", "DAYS", min=0, default=30),
 ) -> None:
     """Sign a permission to mint for one account; sends no transaction. For the signer of the collection."""
-    from ...tokens._minting import sign_allowance
-
     seconds = 86400 * number(days, "--days", 0, 36_500)
     collection = which.open()
     trusted = collection.contract.account("allowListSigner")
@@ -150,11 +148,6 @@ def add(
     reserve: int = option("--reserve", "Number of these tokens reserved for the team.", "N", default=1),
 ) -> None:
     """Add an icon, whose scene is already stored, to a collection that is not sealed. For the owner."""
-    from ...deploy._contract import local_chain
-    from ...studio._storage import STUDIO, stored_codes
-    from ...tokens._icons import SCALE, add_call, check_sale, chosen_pieces, token_scene
-    from ...tokens._storage import SceneToStore, plan_storage
-
     check_sale(supply, reserve)
     pieces = [] if pointer is not None else chosen_pieces(name)
     if len(pieces) > 1:
@@ -175,8 +168,6 @@ def add(
 
 def seal(which: IconsOptions, payer: PayerOptions) -> None:
     """Seal the set of icons; required before the sale. Cannot be undone. For the owner."""
-    from ...tokens._icons import icons_of
-
     collection = which.open()
     icons = icons_of(collection)
     title = f"seal the collection with {len(icons)} icons"

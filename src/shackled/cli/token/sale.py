@@ -1,21 +1,21 @@
 """shackled token mint, reveal and transfer: commands for everyone"""
 
-from __future__ import annotations
-
 import time
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 from ...base.values import plural
+from ...deploy._quote import current_fees
 from ...errors import InputError
+from ...tokens._allow_list import read_allow_list
+from ...tokens._collection import Collection
+from ...tokens._contract import minted_tokens
+from ...tokens._icons import find_icon
+from ...tokens._minting import mint_call, read_allowance
+from ...tokens._reveal import Round, hidden_rounds, price_calls, reveal_calls
 from ..chain_options import CALLDATA, JSON, PayerOptions, address, parse_checksum_address, print_price, write_calls
 from ..option import argument, exclude, option
 from ..output import print_json, print_line, print_note
 from .options import MAX_NUMBER, TOKEN, CollectionOptions
-
-if TYPE_CHECKING:
-    from ...tokens._collection import Collection
-    from ...tokens._reveal import Round
 
 #: Seconds between two requests while waiting for a block.
 PAUSE = 4.0
@@ -36,11 +36,6 @@ def mint(
     as_json: bool = JSON,
 ) -> None:
     """Mint tokens. Prints the price first."""
-    from ...tokens._allow_list import read_allow_list
-    from ...tokens._contract import minted_tokens
-    from ...tokens._icons import find_icon
-    from ...tokens._minting import mint_call, read_allowance
-
     exclude("--allow-list", allow_list, {"--permission": permission, "--reserve-to": reserve_to})
     exclude("--permission", permission, {"--reserve-to": reserve_to})
     collection = which.open()
@@ -76,9 +71,6 @@ def reveal(
     as_json: bool = JSON,
 ) -> None:
     """Reveal the tokens whose blocks are mined. Anyone can do this."""
-    from ...deploy._quote import current_fees
-    from ...tokens._reveal import hidden_rounds, price_calls, reveal_calls
-
     collection = which.open()
     say = print_note if as_json else print_line
     if not collection.kind.hidden:

@@ -1,18 +1,22 @@
 """shackled token show, list, picture and verify: commands that read"""
 
-from __future__ import annotations
-
 from itertools import chain
 from pathlib import Path
 from typing import Any
 
 from ...animation import DURATION
 from ...base.whole_file import check_output_file, write_output
+from ...deploy._contract import local_chain
 from ...errors import InputError, VerificationError
 from ...ethereum._amounts import amount, ether
 from ...image import check_output, one_of
+from ...studio._storage import ANIMATE, STUDIO
 from ...tokens._collection import EDITIONS
-from ...tokens._contract import PHASES
+from ...tokens._contract import PHASES, Contract
+from ...tokens._icons import icons_of
+from ...tokens._launch import address_of
+from ...tokens._verify import check_code, check_token
+from ...tokens._view import read_view, read_views
 from ..chain_options import JSON, NodeOptions
 from ..look_options import parse_size
 from ..option import argument, need, option
@@ -30,8 +34,6 @@ def show(
     as_json: bool = JSON,
 ) -> None:
     """Show the traits of a token, and save its picture, both from its `tokenURI`."""
-    from ...tokens._view import read_view
-
     if output is not None:
         check_output(output)
     view = read_view(which.open(or_editions=True), token_id, measured=True)
@@ -56,9 +58,6 @@ def show(
 
 def list_(which: CollectionOptions, as_json: bool = JSON) -> None:
     """List the tokens with owners and traits, and the state of the collection."""
-    from ...tokens._icons import icons_of
-    from ...tokens._view import read_views
-
     if which.collection == EDITIONS.name:
         raise InputError("editions have no sale phases: shackled token edition list lists them")
     collection = which.open()
@@ -105,10 +104,6 @@ def picture(
     size: tuple[int, int] | None = option("--size", "Pixels of a frame, as 64 or 80x60.", "SIZE", parse=parse_size),
 ) -> None:
     """Render a stored scene on a chain."""
-    from ...studio._storage import ANIMATE, STUDIO
-    from ...tokens._contract import Contract
-    from ...tokens._launch import address_of
-
     calls: dict[str, tuple[Any, ...]] = {
         ".png": ("renderPNG(address,uint256)", pointer, scale),
         ".svg": ("renderSVG(address,uint256)", pointer, scale),
@@ -136,9 +131,6 @@ def picture(
 
 def verify(which: CollectionOptions, numbers: tuple[int, ...] = argument("Tokens; default: all.", "ID")) -> None:
     """Compare the code, the seeds and the pictures of a collection with those computed locally."""
-    from ...deploy._contract import local_chain
-    from ...tokens._verify import check_code, check_token
-
     collection, local = which.open(or_editions=True), local_chain()
     failed = unread = 0
     for each in numbers or ():

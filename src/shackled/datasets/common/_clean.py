@@ -1,10 +1,9 @@
 """Cleaning and simplification of scanned or modelled meshes, so that a contract draws them for little gas."""
 
-from __future__ import annotations
-
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from ...base.checks import Ints
 from ...errors import InputError
 from ...scene._arithmetic import from_euler, rotate
 from ...scene._mesh import Mesh, without_slivers
@@ -14,8 +13,6 @@ from ...scene._simplify import GENTLE, simplify
 MAX_TRIANGLES = 1198
 #: Cells along the longest side of a mesh in which vertices are merged, and where simplification stops on its way then.
 CELLS, STEPPING_STONE = 256, 4000
-
-Faces = NDArray[np.int64]
 
 
 def prepare(
@@ -53,7 +50,7 @@ def clean(mesh: Mesh) -> Mesh:
     return Mesh(positions[used], faces.reshape(-1, 3), mesh.colors[first][used])
 
 
-def _without_doubles(faces: Faces) -> Faces:
+def _without_doubles(faces: Ints) -> Ints:
     """Return the faces with one of all triangles with the same corners.
 
     None is kept if as many of them face one way as the other: they are a fold that bounds nothing.

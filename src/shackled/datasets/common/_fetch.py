@@ -1,7 +1,5 @@
 """Download and preparation of models."""
 
-from __future__ import annotations
-
 import hashlib
 import io
 import re

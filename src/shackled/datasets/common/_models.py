@@ -1,7 +1,5 @@
 """Third-party models: their metadata, and their pieces."""
 
-from __future__ import annotations
-
 import io
 import tomllib
 from collections.abc import Sequence
@@ -79,7 +77,6 @@ class Model:
 
 @cache
 def models() -> dict[str, Model]:
-    """Return all models by name."""
     entries = tomllib.loads(files(__package__).joinpath("models.toml").read_text("utf-8"))
     return {name: Model(name=name, **entry) for name, entry in entries.items()}
 

@@ -1,7 +1,5 @@
 """Meshes from formulas, about the origin and about 2 across, with y up; faces are seen from outside."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from itertools import combinations, product
 
@@ -9,12 +7,12 @@ import numpy as np
 from attrs import evolve
 from numpy.typing import ArrayLike, NDArray
 
+from ...base.checks import Floats, Ints
 from ...base.checks import color as checked_color
 from ...scene._mesh import Mesh, faces_of_all, vertex_normals, without_slivers
 
-Array = NDArray[np.float64]
 #: From u and v, each (n, m) from 0 to 1, to points (n, m, 3).
-Surface = Callable[[Array, Array], Array]
+Surface = Callable[[Floats, Floats], Floats]
 
 TURN = 2 * np.pi
 
@@ -30,21 +28,21 @@ def patch(surface: Surface, across: int, down: int) -> Mesh:
     return smooth(surface(*_parameters(across, down)).reshape(-1, 3), cells(across + 1, down + 1))
 
 
-def smooth(points: Array, faces: NDArray[np.int64]) -> Mesh:
+def smooth(points: Floats, faces: Ints) -> Mesh:
     """Return a mesh with normals, in which equal points are one vertex, without triangles that have no area."""
     positions, number = np.unique(np.round(points, 9) + 0.0, axis=0, return_inverse=True)
     merged = without_slivers(number.reshape(-1)[faces])
     return Mesh(positions, merged, normals=vertex_normals(positions, merged))
 
 
-def cells(rows: int, columns: int) -> NDArray[np.int64]:
+def cells(rows: int, columns: int) -> Ints:
     """Return two faces for each cell of a grid of vertices, counter-clockwise from row to column."""
     number = np.arange(rows * columns).reshape(rows, columns)
     a, b, c, d = number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:]
     return np.stack([np.stack([a, b, c], axis=-1), np.stack([a, c, d], axis=-1)], axis=-2).reshape(-1, 3)
 
 
-def around(angle: ArrayLike, height: ArrayLike, reach: ArrayLike) -> Array:
+def around(angle: ArrayLike, height: ArrayLike, reach: ArrayLike) -> Floats:
     """Return points about the y axis, (..., 3)."""
     x, y, z = np.broadcast_arrays(reach * np.cos(angle), height, np.negative(reach) * np.sin(angle))
     return np.stack([x, y, z], axis=-1)
@@ -78,7 +76,7 @@ def sphere(across: int = 32, down: int = 16) -> Mesh:
 def torus(radius: float = 0.72, thickness: float = 0.28, across: int = 36, down: int = 16) -> Mesh:
     """Return a ring about the y axis."""
 
-    def surface(u: Array, v: Array) -> Array:
+    def surface(u: Floats, v: Floats) -> Floats:
         return around(TURN * u, -thickness * np.sin(TURN * v), radius + thickness * np.cos(TURN * v))
 
     return patch(lambda u, v: surface(u, -v), across, down)
@@ -87,7 +85,7 @@ def torus(radius: float = 0.72, thickness: float = 0.28, across: int = 36, down:
 def torus_knot(p: int = 2, q: int = 3, thickness: float = 0.17, across: int = 84, down: int = 7) -> Mesh:
     """Return a tube along a knot that winds p times about the axis of a torus (z), and q times about its ring."""
 
-    def center(t: Array) -> Array:
+    def center(t: Floats) -> Floats:
         reach = 0.6 + 0.25 * np.cos(q * t)
         return np.stack([reach * np.cos(p * t), reach * np.sin(p * t), -0.25 * np.sin(q * t)], axis=-1)
 
@@ -97,10 +95,10 @@ def torus_knot(p: int = 2, q: int = 3, thickness: float = 0.17, across: int = 84
 def spring(turns: float = 4, thickness: float = 0.13, across: int = 72, down: int = 8) -> Mesh:
     """Return a tube along a helix about the y axis, its ends closed."""
 
-    def center(u: Array) -> Array:
+    def center(u: Floats) -> Floats:
         return np.stack([0.6 * np.cos(TURN * turns * u), 1.6 * u - 0.8, -0.6 * np.sin(TURN * turns * u)], axis=-1)
 
-    def surface(u: Array, v: Array) -> Array:
+    def surface(u: Floats, v: Floats) -> Floats:
         # the first and the last step go from the middle of the end to its edge
         along = np.clip((u * across - 1) / (across - 2), 0, 1)
         return tube(center, thickness, np.where((u <= 0) | (u >= 1), 0.0, 1.0))(along, v)
@@ -108,10 +106,10 @@ def spring(turns: float = 4, thickness: float = 0.13, across: int = 72, down: in
     return patch(surface, across, down)
 
 
-def tube(center: Callable[[Array], Array], thickness: float, width: ArrayLike = 1.0) -> Surface:
+def tube(center: Callable[[Floats], Floats], thickness: float, width: ArrayLike = 1.0) -> Surface:
     """Return the surface at the distance thickness * width of a curve that is never straight."""
 
-    def surface(u: Array, v: Array) -> Array:
+    def surface(u: Floats, v: Floats) -> Floats:
         step = 1e-4
         before, here, after = center(u - step), center(u), center(u + step)
         forward = _unit(after - before)
@@ -128,7 +126,7 @@ def tube(center: Callable[[Array], Array], thickness: float, width: ArrayLike = 
 def moebius_strip(across: int = 60, down: int = 5, width: float = 0.38) -> Mesh:
     """Return a band that is half a turn twisted: one side, one edge."""
 
-    def surface(u: Array, v: Array) -> Array:
+    def surface(u: Floats, v: Floats) -> Floats:
         angle, offset = TURN * u, width * (2 * v - 1)
         reach = 0.72 + offset * np.cos(angle / 2)
         return around(angle, offset * np.sin(angle / 2), reach)
@@ -139,7 +137,7 @@ def moebius_strip(across: int = 60, down: int = 5, width: float = 0.38) -> Mesh:
 def klein_bottle(across: int = 24, down: int = 12) -> Mesh:
     """Return a closed surface with one side, a bottle whose neck goes through its wall to its bottom."""
 
-    def surface(u: Array, v: Array) -> Array:
+    def surface(u: Floats, v: Floats) -> Floats:
         # the middle line goes up inside the belly, over the top, down through the neck: a closed curve in x and y, with
         # the radius of the tube about it
         a, b = TURN * u, TURN * v
@@ -156,10 +154,10 @@ def klein_bottle(across: int = 24, down: int = 12) -> Mesh:
 def superellipsoid(squareness: float = 0.35, roundness: float = 0.35, across: int = 36, down: int = 16) -> Mesh:
     """Return a shape between a cube (0, 0), a sphere (1, 1) and an octahedron (2, 2)."""
 
-    def power(x: Array, exponent: float) -> Array:
+    def power(x: Floats, exponent: float) -> Floats:
         return np.asarray(np.sign(x) * np.abs(np.where(np.abs(x) < 1e-12, 0, x)) ** exponent)
 
-    def surface(u: Array, v: Array) -> Array:
+    def surface(u: Floats, v: Floats) -> Floats:
         a, b = TURN * u, np.pi * (v - 0.5)
         reach = power(np.cos(b), roundness)
         return np.stack(
@@ -173,7 +171,7 @@ def superellipsoid(squareness: float = 0.35, roundness: float = 0.35, across: in
 def seashell(across: int = 66, down: int = 9, turns: float = 4) -> Mesh:
     """Return a tube that grows as it winds down about the y axis, open at its end."""
 
-    def surface(u: Array, v: Array) -> Array:
+    def surface(u: Floats, v: Floats) -> Floats:
         angle, growth = TURN * turns * u, np.exp(0.62 * turns * (u - 1))
         radius, turn = 0.46 * growth, -TURN * v
         reach = 0.44 * growth + radius * np.cos(turn)
@@ -299,7 +297,7 @@ def shaded(mesh: Mesh, low: ArrayLike, high: ArrayLike, axis: ArrayLike = (0, 1,
     return evolve(mesh, colors=gradient(mesh.positions @ np.asarray(axis, dtype=np.float64), low, high))
 
 
-def gradient(heights: Array, low: ArrayLike, high: ArrayLike) -> NDArray[np.uint8]:
+def gradient(heights: Floats, low: ArrayLike, high: ArrayLike) -> NDArray[np.uint8]:
     """Return colours, (..., 3), from `low` at the least of the heights, (...), to `high` at the greatest."""
     share = ((heights - heights.min()) / (np.ptp(heights) or 1))[..., None]
     start, end = (np.array(checked_color(color, "a colour"), dtype=np.float64) for color in (low, high))
@@ -321,16 +319,16 @@ def joined(*meshes: Mesh) -> Mesh:
 # ---- parts of the above ----
 
 
-def _unit(vectors: Array) -> Array:
+def _unit(vectors: Floats) -> Floats:
     return np.asarray(vectors / np.linalg.norm(vectors, axis=-1, keepdims=True))
 
 
-def _parameters(across: int, down: int) -> tuple[Array, Array]:
+def _parameters(across: int, down: int) -> tuple[Floats, Floats]:
     u, v = np.meshgrid(np.linspace(0, 1, across + 1), np.linspace(0, 1, down + 1), indexing="ij")
     return u, v
 
 
-def _faces_of(points: ArrayLike) -> NDArray[np.int64]:
+def _faces_of(points: ArrayLike) -> Ints:
     """Return the faces of the convex polyhedron with these corners, (m, 3), seen from outside."""
     corners = np.asarray(points, dtype=np.float64)
     corners = corners - corners.mean(axis=0)
@@ -340,7 +338,7 @@ def _faces_of(points: ArrayLike) -> NDArray[np.int64]:
     aside = np.abs(distances[:, 0]) >= 1e-9  # those through the middle are not faces
     normals = _unit(normals[aside]) * np.sign(distances[aside])
     heights = normals @ corners.T - (normals * a[aside]).sum(axis=1, keepdims=True)
-    planes: dict[tuple[int, ...], Array] = {}
+    planes: dict[tuple[int, ...], Floats] = {}
     for normal, above in zip(normals, heights, strict=True):
         if above.max() <= 1e-9:
             planes[tuple(np.flatnonzero(above > -1e-9))] = normal

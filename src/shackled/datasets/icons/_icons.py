@@ -1,13 +1,12 @@
 """The icons, in the order in which they are listed: solids with a pose, a light and a background."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 
 import numpy as np
 from attrs import evolve
 from numpy.typing import ArrayLike
 
+from ...base.checks import Floats
 from ...scene._camera import Camera
 from ...scene._effects import Background
 from ...scene._light import Light
@@ -18,7 +17,6 @@ from ...scene._scene import Scene
 from ...scene._staging import view_axes
 from .._pieces import Piece
 from .modelling import (
-    Array,
     Solid,
     Where,
     above,
@@ -130,7 +128,7 @@ def _cheaper(o: Object, camera: Camera) -> list[Object]:
     return parts if flat_is_nearer else parts[::-1]
 
 
-def ring(outline: Array, y: float, scale: float = 1) -> Array:
+def ring(outline: Floats, y: float, scale: float = 1) -> Floats:
     """Return a polygon (n, 2) around the y axis, (n, 3)."""
     return np.column_stack([scale * outline[:, 0], np.full(len(outline), y), scale * outline[:, 1]])
 
@@ -271,7 +269,7 @@ def crown() -> Solid:
     """Model a crown of seven points."""
     points, zigzag = 7, np.tile([0.62, 0.08], 7)
 
-    def wall(radius: float, top: float) -> list[Array]:
+    def wall(radius: float, top: float) -> list[Floats]:
         low, high = (ring(regular(2 * points, reach, 90), -0.55) for reach in (radius, top))
         high[:, 1] = zigzag
         return [low, high]

@@ -16,13 +16,13 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from ...base import checks
+from ...base.checks import Flags, Floats
 from ...scene._arithmetic import from_euler, rotate
 from ...scene._mesh import Mesh
 from ..common import shapes
 from .outlines import arc, chamfered, inset, rectangle, regular, triangulate
 
-Array = NDArray[np.float64]
-Where = Callable[[Array], NDArray[np.bool_]]
+Where = Callable[[Floats], Flags]
 
 #: The meshes have whole coordinates, so many to a unit.
 STEPS = 10_000
@@ -39,7 +39,7 @@ class Solid:
     colors: (m, 3, 3), red, green, blue, 0..255 for each corner.
     """
 
-    corners: Array
+    corners: Floats
     colors: NDArray[np.uint8]
 
     def __add__(self, other: Solid) -> Solid:
@@ -111,7 +111,7 @@ def below(y: float) -> Where:
     return lambda at: at[:, 1] < y
 
 
-def from_axis(at: Array) -> Array:
+def from_axis(at: Floats) -> Floats:
     """Return the distances of points (n, 3) from the y axis, (n,)."""
     return np.asarray(np.hypot(at[:, 0], at[:, 2]))
 
@@ -295,15 +295,15 @@ def pixels(rows: Sequence[str], palette: dict[str, str], depth: float) -> Solid:
 # ---- within ----
 
 
-def _at(outline: Array, z: float) -> Array:
+def _at(outline: Floats, z: float) -> Floats:
     return np.column_stack([outline, np.full(len(outline), z)])
 
 
-def _grey(corners: Array) -> Solid:
+def _grey(corners: Floats) -> Solid:
     return Solid(corners, np.full(corners.shape, 200, dtype=np.uint8))
 
 
-def _distinct(corners: Array) -> NDArray[np.bool_]:
+def _distinct(corners: Floats) -> Flags:
     """Return which triangles have three different corners, (m,) bool."""
     sides = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2)
     return np.asarray(sides.min(axis=1) > SAME)
@@ -315,7 +315,7 @@ def _outward(solid: Solid) -> Solid:
     return Solid(solid.corners[:, ::-1], solid.colors[:, ::-1])
 
 
-def _cap(ring: Array) -> Array:
+def _cap(ring: Floats) -> Floats:
     """Return the triangles of a flat ring, (m, 3, 3), in its orientation; none for a tip or a line."""
     points = ring[np.linalg.norm(ring - np.roll(ring, 1, axis=0), axis=1) > SAME]
     if len(points) < 3:
@@ -327,7 +327,7 @@ def _cap(ring: Array) -> Array:
     return np.asarray(points[triangulate(np.delete(around, axis, axis=1))])
 
 
-def _normals(corners: Array, crease: float) -> Array:
+def _normals(corners: Floats, crease: float) -> Floats:
     """Return unit normals of the corners, (m, 3, 3), rounded.
 
     Each is the mean, weighted by angle, of the faces that meet there and differ by less than `crease` degrees.

@@ -1,7 +1,5 @@
 """Files that another file names: where they are."""
 
-from __future__ import annotations
-
 import os
 import re
 from collections.abc import Callable, Iterator, Sequence

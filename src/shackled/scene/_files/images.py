@@ -22,7 +22,6 @@ class Images:
     """The images of a file. Those that are used last are kept; others are opened again when they are needed."""
 
     def __init__(self) -> None:
-        """Begin without any."""
         # weak, for each knows of these: a cycle would hold the pixels for longer than the file is read
         self._all = WeakValueDictionary[Hashable, FileImage]()
         self._kept: dict[Hashable, Image.Image] = {}
@@ -57,7 +56,6 @@ class FileImage:
     """An image of a file, and what stays known of it while it is not open. has_alpha: whether it is RGBA, not RGB."""
 
     def __init__(self, images: Images, key: Hashable, read: Callable[[], Image.Image]) -> None:
-        """Take the images of the file, and the key of this one, and what opens it."""
         self.images, self._key, self._read = images, key, read
         self._texel: Image.Image | None = None  # all of it, if it has one colour
         self._reduced: dict[int, Image.Image] = {}

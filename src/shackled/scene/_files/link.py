@@ -1,7 +1,5 @@
 """Links of the Creator: a scene file in the fragment of the page's address, compressed."""
 
-from __future__ import annotations
-
 import base64
 import binascii
 import re
@@ -32,7 +30,6 @@ class Link:
     suffix = ""
 
     def __str__(self) -> str:
-        """Return what it is called."""
         return "the link"
 
     def scene(self, piece: SceneOfPiece) -> Scene:

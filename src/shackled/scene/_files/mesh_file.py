@@ -1,7 +1,5 @@
 """Mesh files of any format."""
 
-from __future__ import annotations
-
 import os
 import re
 from collections.abc import Callable
@@ -9,8 +7,8 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...base.checks import Flags
 from ...base.values import plural
 from ...errors import InputError, InputWarning, warn
 from .._mesh import Mesh
@@ -83,7 +81,7 @@ def _check_areas(meshes: list[Mesh]) -> None:
 
 
 @np.errstate(all="ignore")
-def _is_thin(mesh: Mesh) -> NDArray[np.bool_]:
+def _is_thin(mesh: Mesh) -> Flags:
     # halved, for the difference of two numbers may be beyond the largest
     a, b, c = (mesh.positions / 2)[mesh.faces].transpose(1, 0, 2)
     edges = np.stack([b - a, c - b, a - c])

@@ -1,17 +1,15 @@
 """What a mesh file holds: meshes, each with what the file says of its material; and their textures."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any, Literal
 
 import numpy as np
 from attrs import evolve
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from PIL import Image
 
-from ...base.checks import Color
+from ...base.checks import Color, Floats, Ints
 from ...errors import warn
 from .._crease import filled
 from .._fields import Filter, Wrap
@@ -29,7 +27,6 @@ REPLACED = "drawn in the colours of a texture, not in their own"
 #: How an image goes on outside of 0..1 in files.
 FileWrap = Literal["repeat", "clamp", "mirror"]
 
-Array = NDArray[np.float64]
 
 #: Texture coordinates beyond this are moved by whole images.
 _FAR = 100
@@ -66,7 +63,7 @@ class Picture:
     wraps: tuple[FileWrap, FileWrap] = ("repeat", "repeat")
     cutoff: int = 0
 
-    def is_plain(self, uvs: Array) -> bool:
+    def is_plain(self, uvs: Floats) -> bool:
         """Return whether each triangle, (m, 3, 2), is within the image and shows one colour, as of a palette.
 
         False, too, for what is beyond the pixels that may be compared.
@@ -88,7 +85,7 @@ class Picture:
                 return False
         return True
 
-    def texture(self, uvs: Array, count: int) -> tuple[Texture, Array]:
+    def texture(self, uvs: Floats, count: int) -> tuple[Texture, Floats]:
         """Return the texture of a file with so many, and where corners, (m, 3, 2), are on it; warn of what changes."""
         uvs, side = uvs.copy(), _side(count)
         outside = [bool((axis < -_ROUNDING).any() or (axis > 1 + _ROUNDING).any()) for axis in np.moveaxis(uvs, 2, 0)]
@@ -147,12 +144,12 @@ def _opaque(part: MeshPart) -> MeshPart:
 
 
 def split(
-    positions: Array,
-    corners: NDArray[np.int64],
-    colors: Array,
-    normals: Array | None,
-    uvs: Array,
-    look: NDArray[np.int64],
+    positions: Floats,
+    corners: Ints,
+    colors: Floats,
+    normals: Floats | None,
+    uvs: Floats,
+    look: Ints,
     looks: Sequence[Look],
 ) -> list[MeshPart]:
     """Return the triangles as meshes, one for each look that some of them have.
@@ -173,7 +170,7 @@ def split(
     return parts
 
 
-def under(picture: Picture, uvs: Array, colors: Array) -> tuple[Array, bool]:
+def under(picture: Picture, uvs: Floats, colors: Floats) -> tuple[Floats, bool]:
     """Return white for the corners of triangles, (m, 3, n), or their colours on a picture of which each shows only one;
     and whether they need the picture as a texture.
     """
@@ -184,7 +181,7 @@ def under(picture: Picture, uvs: Array, colors: Array) -> tuple[Array, bool]:
     return tinted(shown, picture, uvs), False
 
 
-def replaced(colors: Array) -> int:
+def replaced(colors: Floats) -> int:
     """Return how many triangles lose their own colours, (m, 3, n), to a texture; white and light grey are none."""
     plain = [(colors[..., :3] == each).all(axis=(1, 2)) for each in (255, DEFAULT_COLOR)]
     return int((~(plain[0] | plain[1])).sum())
@@ -197,7 +194,7 @@ def _side(count: int) -> int:
     return side
 
 
-def finite_uvs(uvs: ArrayLike, name: str) -> Array:
+def finite_uvs(uvs: ArrayLike, name: str) -> Floats:
     """Return texture coordinates, with 0 in place of what is not a finite number, of which an InputWarning tells."""
     found = np.asarray(uvs, dtype=np.float64)
     if np.isfinite(found).all():
@@ -206,7 +203,7 @@ def finite_uvs(uvs: ArrayLike, name: str) -> Array:
     return np.nan_to_num(found, nan=0.0, posinf=0.0, neginf=0.0)
 
 
-def given_normals(normals: Array | None, positions: Array, corners: NDArray[np.int64], name: str) -> Array | None:
+def given_normals(normals: Floats | None, positions: Floats, corners: Ints, name: str) -> Floats | None:
     """Return normals of corners, (m, 3, 3), of those of vertices, (n, 3): computed where these are 0 or not finite."""
     if normals is None:
         return None
@@ -217,7 +214,7 @@ def given_normals(normals: Array | None, positions: Array, corners: NDArray[np.i
     return filled(positions, corners, normals[corners]) if normals.any() else None
 
 
-def tinted(colors: Array, picture: Picture, uvs: Array) -> Array:
+def tinted(colors: Floats, picture: Picture, uvs: Floats) -> Floats:
     """Return colours, (..., 3), times those of an image at texture coordinates, (..., 2): 0..255. An alpha stays."""
     places = uvs.reshape(-1, 2)
     texels = sample(picture.image.open(), np.stack([places[:, 0], 1 - places[:, 1]], axis=1))
@@ -239,8 +236,8 @@ def merged(parts: Sequence[MeshPart]) -> tuple[Mesh, bool]:
     return weld(positions, faces, colors[faces], found), bool(textured)
 
 
-def _vertex_colors(part: MeshPart) -> Array:
-    colors: Array = np.rint(part.mesh.rgba * np.array([1, 1, 1, part.opacity]))
+def _vertex_colors(part: MeshPart) -> Floats:
+    colors: Floats = np.rint(part.mesh.rgba * np.array([1, 1, 1, part.opacity]))
     texture: Texture | None = part.material.get("texture")
     if texture is None or part.mesh.uvs is None:
         return colors

@@ -4,8 +4,6 @@ An own reader: trimesh misreads relative vertex numbers, takes vertex 0 for vert
 vertex has.
 """
 
-from __future__ import annotations
-
 import io
 import re
 from array import array
@@ -17,8 +15,8 @@ from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...base.checks import Flags, Floats, Ints
 from ...base.values import plural
 from ...errors import InputError, warn
 from .._crease import corner_normals, filled
@@ -30,9 +28,6 @@ from .images import Images
 from .model import REPLACED, Look, MeshPart, Picture, replaced, split, under
 from .mtl import Map, ObjMaterial, material_name, read_materials
 from .polygons import cut, whole
-
-Floats = NDArray[np.float64]
-Ints = NDArray[np.int64]
 
 ABSENT = -1
 
@@ -80,7 +75,6 @@ class _Drawn(NamedTuple):
 
 
 def _read_lines(path: Path) -> _Lines:
-    """Return the lines of a file."""
     obj = _Lines(path)
     material, group = 0, 0
     text = with_points(path, read_text(path), "v|vn|vt")
@@ -335,7 +329,7 @@ class _Surfaces:
             self.look[textured] = self.looks.setdefault(replace(look, picture=picture), len(self.looks))
 
 
-def _vertex_colors(obj: _Lines, count: int) -> tuple[NDArray[np.bool_], Floats]:
+def _vertex_colors(obj: _Lines, count: int) -> tuple[Flags, Floats]:
     """Return which of so many vertices have a colour, (n,), and the colours, (n, 3), 0..255; light grey for others."""
     painted, colors = np.zeros(count, dtype=bool), np.full((count, 3), DEFAULT_COLOR, dtype=np.float64)
     levels = np.frombuffer(bytes(obj.polypaint), dtype=np.uint8).reshape(-1, 4)[:count]

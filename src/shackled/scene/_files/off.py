@@ -1,14 +1,12 @@
 """OFF, the Object File Format of Geomview, as text, with its colours (which trimesh drops)."""
 
-from __future__ import annotations
-
 import re
 from itertools import chain
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...base.checks import Floats
 from ...errors import InputError, warn
 from .._mesh import DEFAULT_COLOR, weld
 from .._texture import to_bytes
@@ -100,7 +98,7 @@ def _faces(lines: list[_Line]) -> tuple[list[list[int]], _Rows]:
     return polygons, colors
 
 
-def _colors(path: Path, rows: _Rows, what: str) -> NDArray[np.float64]:
+def _colors(path: Path, rows: _Rows, what: str) -> Floats:
     """Return colours with alpha, (n, 4), 0..255; light grey for rows that are not of three or four numbers."""
     table = np.full((len(rows), 4), (*DEFAULT_COLOR, 255.0))
     given = [number for number, row in enumerate(rows) if len(row) in (3, 4)]

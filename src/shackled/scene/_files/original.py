@@ -7,14 +7,12 @@ lightDiffPower / |lightPos|^2` is not cut to an integer. Left out: `lightAmbiPow
 diffuse colour of another hue than the specular one, of which the mean is taken while there is a highlight.
 """
 
-from __future__ import annotations
-
 from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...base.checks import Floats
 from ...errors import InputError
 from .._arithmetic import dot, from_euler
 from .._camera import Camera
@@ -105,7 +103,7 @@ def _light(lighting: Table) -> tuple[Material, list[Light]]:
     return material, [Light("directional", vector, hue)]
 
 
-def _light_color(lighting: Table, key: str) -> NDArray[np.float64]:
+def _light_color(lighting: Table, key: str) -> Floats:
     """Return red, green and blue, of any size: the original's powers may be in them."""
     color = np.array(lighting.numbers(key, (255, 255, 255)))
     if (color < 0).any():

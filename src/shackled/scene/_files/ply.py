@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from ...base.checks import Floats, Ints
 from ...base.values import plural
 from ...errors import InputError, warn
 from .._mesh import DEFAULT_COLOR
@@ -23,9 +24,6 @@ from .content import plain_text, read_content, with_points
 from .images import Images
 from .model import REPLACED, Look, MeshPart, Picture, finite_uvs, given_normals, replaced, split, under
 from .polygons import cut, whole
-
-Array = NDArray[np.float64]
-Ints = NDArray[np.int64]
 
 _TYPES = {
     "char": "i1", "int8": "i1", "uchar": "u1", "uint8": "u1",
@@ -69,7 +67,7 @@ class Element:
         """How many rows of values it has."""
         return len(next(iter(self.values.values()), ()))
 
-    def table(self, *names: str) -> Array | None:
+    def table(self, *names: str) -> Floats | None:
         """Return the scalar properties of these names side by side, or None if one is missing."""
         if not {p.name for p in self.properties if p.length is None}.issuperset(names):
             return None
@@ -77,7 +75,7 @@ class Element:
         columns = [np.asarray(self.values.get(name, []), dtype=np.float64).reshape(-1) for name in names]
         return np.stack(columns, axis=1)
 
-    def lists(self, *names: str) -> tuple[Ints, Array] | None:
+    def lists(self, *names: str) -> tuple[Ints, Floats] | None:
         """Return the first list property of one of these names, as lengths of its lists and all numbers; or None."""
         name = next((n for n in names if any(p.name == n and p.length is not None for p in self.properties)), None)
         if name is None:
@@ -88,7 +86,7 @@ class Element:
             return np.full(len(rows), rows.shape[1]), rows.reshape(-1).astype(np.float64)
         return np.array([len(row) for row in rows], dtype=np.int64), np.fromiter(chain.from_iterable(rows), np.float64)
 
-    def colors(self) -> Array | None:
+    def colors(self) -> Floats | None:
         """Return (n, 4) colours with alpha, 0..255; None if there are none."""
         for *names, alpha in _COLORS:
             if (colors := self._levels(*names)) is not None:
@@ -96,7 +94,7 @@ class Element:
                 return np.hstack([colors, np.full((len(colors), 1), 255.0) if opacities is None else opacities])
         return None
 
-    def _levels(self, *names: str) -> Array | None:
+    def _levels(self, *names: str) -> Floats | None:
         table = self.table(*names)
         if table is None or not len(table):
             return None
@@ -364,7 +362,7 @@ def _strips(sizes: Ints, numbers: Ints) -> Ints:
     return kept.reshape(-1)
 
 
-def _colors(path: Path, vertex: Element, face: Element, corners: Ints, polygon: Ints) -> Array:
+def _colors(path: Path, vertex: Element, face: Element, corners: Ints, polygon: Ints) -> Floats:
     """Return the colours of corners with alpha, (m, 3, 4). polygon: (m,) the row of `face` for each triangle."""
     of_faces, of_vertices = face.colors(), vertex.colors()
     if of_faces is not None and (of_vertices is None or (of_faces != of_faces[0]).any()):
@@ -378,7 +376,7 @@ def _colors(path: Path, vertex: Element, face: Element, corners: Ints, polygon: 
 
 def _textured(
     path: Path, vertex: Element, face: Element, sizes: Ints, triangles: Ints, corners: Ints
-) -> tuple[Ints, Array]:
+) -> tuple[Ints, Floats]:
     """Return the texture of each triangle, (m,), and its place there, (m, 3, 2): of its corners, else its vertices."""
     polygon = triangles[:, 3]
     numbers = face.table("texnumber")
@@ -400,7 +398,7 @@ def _textured(
     return picture, finite_uvs(uvs, str(path)) * (1, -1) + (0, 1)
 
 
-def _paint(path: Path, pictures: dict[int, Picture], picture: Ints, uvs: Array, colors: Array) -> None:
+def _paint(path: Path, pictures: dict[int, Picture], picture: Ints, uvs: Floats, colors: Floats) -> None:
     """Give the triangles with a texture its colours; those that do not need it then have none."""
     picture[~np.isin(picture, list(pictures))] = _NONE
     if count := replaced(colors[picture != _NONE]):

@@ -1,13 +1,12 @@
 """Polygons as files have them, cut into triangles."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import mapbox_earcut
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from ...base.checks import Flags, Floats, Ints
 from ...base.values import plural
 from ...errors import InputError, warn
 from .._mesh import Mesh
@@ -19,7 +18,7 @@ MAX_CORNERS = 1 << 13
 _ROUNDING = 1e-9
 
 
-def cut(positions: ArrayLike, sizes: ArrayLike, vertices: ArrayLike) -> NDArray[np.int64]:
+def cut(positions: ArrayLike, sizes: ArrayLike, vertices: ArrayLike) -> Ints:
     """Cut polygons into triangles, (k, 4) int: the numbers of three corners, and of the polygon.
 
     positions: (n, 3) float. sizes: (m,) the number of corners of each polygon. vertices: (sum of sizes,) the number of
@@ -66,7 +65,7 @@ def cut(positions: ArrayLike, sizes: ArrayLike, vertices: ArrayLike) -> NDArray[
     return together[np.argsort(together[:, 3], kind="stable")]
 
 
-def whole(path: Path, sizes: NDArray[np.int64], vertices: NDArray[np.int64], count: int) -> NDArray[np.bool_]:
+def whole(path: Path, sizes: Ints, vertices: Ints, count: int) -> Flags:
     """Return which polygons have vertices that are all among so many, (m,), or all if none has; an InputWarning tells.
 
     sizes, vertices: as in `cut`.
@@ -79,7 +78,7 @@ def whole(path: Path, sizes: NDArray[np.int64], vertices: NDArray[np.int64], cou
     return kept
 
 
-def fans(sizes: ArrayLike) -> NDArray[np.int64]:
+def fans(sizes: ArrayLike) -> Ints:
     """Cut polygons of so many corners as fans about their first corner; (k, 4) int as in `cut`."""
     corners = np.asarray(sizes, dtype=np.int64)
     triangles = np.maximum(corners - 2, 0)
@@ -89,7 +88,7 @@ def fans(sizes: ArrayLike) -> NDArray[np.int64]:
     return np.stack([first, second, second + 1, polygon], axis=1)
 
 
-def _flat(points: NDArray[np.float64], normals: NDArray[np.float64]) -> NDArray[np.float64]:
+def _flat(points: Floats, normals: Floats) -> Floats:
     """Return points, (n, 2), seen along the axis nearest to their normal, such that outlines run counter-clockwise."""
     rows = np.arange(len(points))
     axis = np.abs(normals).argmax(axis=1)

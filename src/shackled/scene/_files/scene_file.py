@@ -3,8 +3,6 @@
 Keys that are settings of a look come from its table, with their kinds and ranges.
 """
 
-from __future__ import annotations
-
 import base64
 import math
 import os

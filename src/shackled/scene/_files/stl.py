@@ -1,14 +1,12 @@
 """STL, as text or binary, with the colours that VisCAM, SolidView and Materialise Magics keep in binary files."""
 
-from __future__ import annotations
-
 import re
 from itertools import pairwise
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ...base.checks import Floats, Ints
 from ...base.values import plural
 from ...errors import InputError, warn
 from .._mesh import DEFAULT_COLOR, weld
@@ -24,8 +22,6 @@ _MATERIAL_SIZE = 12
 
 #: Bytes at random make coordinates that are mostly beyond this, or no numbers.
 _PLAUSIBLE = 1e15
-
-Array = NDArray[np.float64]
 
 
 def read_stl(path: Path) -> list[MeshPart]:
@@ -49,7 +45,7 @@ def read_stl(path: Path) -> list[MeshPart]:
     return [MeshPart(weld(corners[finite].reshape(-1, 3), faces, corner_colors))]
 
 
-def _binary(path: Path, data: bytes) -> tuple[Array, Array | None]:
+def _binary(path: Path, data: bytes) -> tuple[Floats, Floats | None]:
     """Return the corners of facets, (n, 3, 3), and their colours with alpha, (n, 1, 4), or None."""
     header, body = data[:_HEADER], data[_HEADER + _COUNT :]
     declared = int.from_bytes(data[_HEADER : _HEADER + _COUNT], "little")
@@ -72,7 +68,7 @@ def _binary(path: Path, data: bytes) -> tuple[Array, Array | None]:
     return corners, _colors(path, header, facets["attribute"].astype(np.int64))
 
 
-def _colors(path: Path, header: bytes, attributes: NDArray[np.int64]) -> Array | None:
+def _colors(path: Path, header: bytes, attributes: Ints) -> Floats | None:
     """Return the colours of facets, 0..255 with alpha, (n, 1, 4); None if there are none."""
     # five bits for each of red, green and blue; the highest one says in Magics that the facet has the colour of the
     # header, else that it has its own. Many programs write the colour of the header only, and 0 as all attributes
@@ -97,7 +93,7 @@ def _colors(path: Path, header: bytes, attributes: NDArray[np.int64]) -> Array |
     return np.asarray(colors[:, None], dtype=np.float64)
 
 
-def _text(path: Path, text: str) -> Array:
+def _text(path: Path, text: str) -> Floats:
     """Return the corners of the facets of all solids of a text, (n, 3, 3), which may be in one line."""
     # names may be of any words
     text = re.sub(r"(?im)^[ \t]*(end)?solid\b(?:(?!\bfacet[ \t]+normal\b).)*", "", text)

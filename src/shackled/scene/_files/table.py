@@ -10,7 +10,7 @@ from typing import Any, TypeVar, cast
 import numpy as np
 from numpy.typing import NDArray
 
-from ...base.checks import COLORS, Color, color
+from ...base.checks import COLORS, Color, Floats, color
 from ...errors import InputError
 
 Word = TypeVar("Word", bound=str)
@@ -35,7 +35,6 @@ class Table:
         self.where = where
 
     def __contains__(self, key: str) -> bool:
-        """Return whether the key is there."""
         return key in self.values
 
     def place(self, key: str) -> str:
@@ -76,7 +75,7 @@ class Table:
         count = len(default)
         return tuple(map(float, self._checked(key, default, partial(_is_row, width=count), f"{count} numbers")))
 
-    def series(self, key: str) -> NDArray[np.float64]:
+    def series(self, key: str) -> Floats:
         """Return a list of numbers, (n,)."""
         return np.array([_check(value, place, _is_number, "a number") for place, value in self.rows(key)], np.float64)
 

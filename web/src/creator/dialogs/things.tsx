@@ -27,10 +27,8 @@ export function Things({ app }: { app: App }) {
     const keep = async (signal: AbortSignal): Promise<void> => {
         const doc = app.doc.value;
         const factor = Math.min(1, SIDE / Math.max(doc.width, doc.height));
-        const [width, height] = [doc.width, doc.height].map((side) => Math.max(1, Math.round(side * factor))) as [
-            number,
-            number,
-        ];
+        const sized = (side: number): number => Math.max(1, Math.round(side * factor));
+        const [width, height] = [sized(doc.width), sized(doc.height)];
         const { pixels } = await app.work.draw(doc, { width, height, lane: "background", signal });
         const canvas = Object.assign(document.createElement("canvas"), { width, height });
         canvas.getContext("2d")?.putImageData(new ImageData(pixels, width, height), 0, 0);
@@ -70,19 +68,14 @@ export function Things({ app }: { app: App }) {
     );
 }
 
-function Card({
-    thing,
-    open,
-    rename,
-    duplicate,
-    remove,
-}: {
+function Card(props: {
     thing: Thing;
     open: () => void;
     rename: (name: string) => void;
     duplicate: () => void;
     remove: () => void;
 }) {
+    const { thing, open, rename, duplicate, remove } = props;
     const [sure, setSure] = useState(false);
     const [url, setUrl] = useState("");
     const { name, changed, picture } = thing;

@@ -2,6 +2,8 @@
 
 import type { Background, Light, Mesh, Rows, Scene, SceneObject } from "../../scene/types.js";
 import { isSimplified, type Item } from "../../document/document.js";
+import { rows as inRows } from "../../document/packed.js";
+import { snake } from "../../scene/table.js";
 import { linkLines, notices, stemOf, titleOf, type Subject } from "./subject.js";
 
 /** Vertices of meshes that stand in the program itself. */
@@ -129,8 +131,7 @@ function verticesOf({ positions }: Mesh): number {
 function rowsOf(rows: Rows): number[][] {
     if (rows.length && typeof rows[0] !== "number")
         return Array.from(rows as readonly ArrayLike<number>[], (row) => Array.from(row));
-    const flat = rows as ArrayLike<number>;
-    return Array.from({ length: flat.length / 3 }, (_, row) => [0, 1, 2].map((at) => flat[3 * row + at] as number));
+    return inRows(rows as ArrayLike<number>, 3);
 }
 
 /** Python code. */
@@ -141,7 +142,6 @@ class Expression {
 /** Return a call of a class of the package, without what is undefined; its fields have the names of Python. */
 function call(name: string, values: object): Expression {
     const given = Object.entries(values).filter(([, value]) => value !== undefined && value !== null);
-    const snake = (key: string): string => key.replace(/[A-Z]/g, (letter) => `_${letter.toLowerCase()}`);
     return new Expression(
         `shackled.${name}(${given.map(([key, value]) => `${snake(key)}=${python(value)}`).join(", ")})`,
     );

@@ -45,11 +45,8 @@ export function solidityProgram(subject: Subject, most = MAX_CONSTANT): string {
         ...(inside ? [] : [`@dev The caller passes ${names}, of ${count(size)} bytes, too many for a contract.`]),
     ].map((line) => `/// ${line}`);
     const parameters = kinds.join(", ");
-    const body = bodyOf(
-        read,
-        inside,
-        scene.objects.map((_, index) => licenceLines(origins[index])),
-    );
+    const licences = scene.objects.map((_, index) => licenceLines(origins[index]));
+    const body = bodyOf(read, inside, licences);
     return `\
 // SPDX-License-Identifier: ${inside ? spdxOf(origins.flatMap((origin) => (origin ? [origin.licence] : []))) : OWN}
 pragma solidity ^0.8.25;

@@ -25,7 +25,6 @@ const PATHS = {
     remove: "M5 7h14M10 7V4.5h4V7M6.5 7l1 13h9l1-13M10.5 11v5.5M13.5 11v5.5",
     up: "M12 19V5M6 11l6-6 6 6",
     down: "M12 5v14M6 13l6 6 6-6",
-    chevron: "M9 5l7 7-7 7",
 } as const;
 
 export type IconName = keyof typeof PATHS;

@@ -53,7 +53,7 @@ function idsOf(items: readonly Item[]): ReadonlySet<string> {
 }
 
 function look(app: App, number: number): void {
-    const { name } = LOOKS[number % LOOKS.length] as (typeof LOOKS)[number];
+    const { name } = LOOKS[number % LOOKS.length];
     app.change(applyLook(app.doc.value, name, app.selected.value), "Look");
 }
 
@@ -103,6 +103,10 @@ const zoom =
     (factor: number) =>
     (app: App): void =>
         move(app, "Zoom", (doc) => zoomed(doc, factor));
+const turnLeft = nudge("pose.rotation.y", (angle) => angle - ANGLE);
+const turnRight = nudge("pose.rotation.y", (angle) => angle + ANGLE);
+const shrink = nudge("pose.size", (size) => size / ZOOM);
+const grow = nudge("pose.size", (size) => size * ZOOM);
 
 export const KEYS: readonly Key[] = [
     key(ARROWS.join(" "), "← → ↑ ↓", "Turn", orbit),
@@ -116,30 +120,10 @@ export const KEYS: readonly Key[] = [
     key("s", "S", "Surprise me", surpriseMe),
     key("g", "G", "Random Genesis piece", (app) => void anyGenesis(app)),
     key("m", "M", "Move objects by dragging", () => show({ tool: open.peek().tool === "move" ? "turn" : "move" })),
-    key(
-        "[",
-        "[",
-        "Turn the object left",
-        nudge("pose.rotation.y", (angle) => angle - ANGLE),
-    ),
-    key(
-        "]",
-        "]",
-        "Turn the object right",
-        nudge("pose.rotation.y", (angle) => angle + ANGLE),
-    ),
-    key(
-        ",",
-        ",",
-        "Make the object smaller",
-        nudge("pose.size", (size) => size / ZOOM),
-    ),
-    key(
-        ".",
-        ".",
-        "Make the object larger",
-        nudge("pose.size", (size) => size * ZOOM),
-    ),
+    key("[", "[", "Turn the object left", turnLeft),
+    key("]", "]", "Turn the object right", turnRight),
+    key(",", ",", "Make the object smaller", shrink),
+    key(".", ".", "Make the object larger", grow),
     key("d", "D", "Duplicate the selected objects", duplicate),
     key("Delete Backspace", "Delete", "Remove the selected objects", remove),
     key("Ctrl+a", "Ctrl A", "Select all objects", ({ selected, doc }) => (selected.value = idsOf(doc.value.objects))),
@@ -187,7 +171,7 @@ const typed = (element: Element): boolean =>
 const own = (element: Element, key: string): boolean =>
     key === "Enter"
         ? element.closest("button, a, summary, input, label") !== null
-        : key.length > 1 && key !== "Escape" && element.closest("input:not([type=checkbox]), [role=tablist]") !== null;
+        : key.length > 1 && key !== "Escape" && element.closest("input:not([type=checkbox])") !== null;
 
 /** Listen to the keys of the page. */
 export function listenToKeys(app: App): void {

@@ -17,29 +17,16 @@ function add(): void {
 export function Objects({ app }: { app: App }) {
     const { objects } = app.calm.value;
     const selected = app.selected.value;
-    const one = selected.size === 1 ? ([...selected][0] as string) : null;
+    const one = selected.size === 1 ? [...selected][0] : null;
     const place = objects.findIndex(({ id }) => id === one);
     const choose = (id: string, more: boolean): void => app.select(id === one && !more ? null : id, more);
     const reorder = (by: number): void => app.change(reordered(app.doc.value, one as string, by), "Change the order");
     const [several, some] = [objects.length > 1, selected.size > 0 && selected.size < objects.length];
     const [isFirst, isLast] = [place === 0, place === objects.length - 1];
+    const moves = several && one !== null;
     const actions: (IconAction | false | null)[] = [
-        several &&
-            one !== null && {
-                id: "object-up",
-                name: "up",
-                label: "Draw earlier",
-                disabled: isFirst,
-                onClick: () => reorder(-1),
-            },
-        several &&
-            one !== null && {
-                id: "object-down",
-                name: "down",
-                label: "Draw later",
-                disabled: isLast,
-                onClick: () => reorder(1),
-            },
+        moves && { id: "object-up", name: "up", label: "Draw earlier", disabled: isFirst, onClick: () => reorder(-1) },
+        moves && { id: "object-down", name: "down", label: "Draw later", disabled: isLast, onClick: () => reorder(1) },
         { id: "add-object", name: "plus", label: "Add an object from the shelf", onClick: add },
         { id: "duplicate", name: "copy", label: "Duplicate (D)", onClick: () => duplicate(app) },
         some && { id: "remove", name: "remove", label: "Remove (Delete)", onClick: () => remove(app) },

@@ -21,15 +21,8 @@ type Group = (typeof GROUPS)[number]["name"];
 const OPEN = ["material", "lights"];
 /** What only some need: it is shown under "More". Controls that are new are not in it. */
 const RARE = new Set([
-    ...[
-        "pose.rotation.x",
-        "pose.rotation.z",
-        "object.max_triangles",
-        "scene.lights_follow",
-        "camera.roll",
-        "scene.invert",
-    ],
-    ...["camera.target.x", "camera.target.y", "camera.target.z", "material.ambient", "material.diffuse"],
+    ...["pose.rotation.x", "pose.rotation.z", "camera.roll", "camera.target.x", "camera.target.y", "camera.target.z"],
+    ...["scene.lights_follow", "scene.invert", "material.ambient", "material.diffuse", "object.max_triangles"],
     ...["material.emission", "object.crease", "object.cull", "object.wireframe", "object.two_sided"],
 ]);
 /** The controls of a light that are always shown. */
@@ -184,7 +177,7 @@ function summary(app: App, doc: Document, name: Group): string {
     switch (name) {
         case "material": {
             const shadings = new Set(chosen(doc, app.selected.value).map(({ material }) => material.shading));
-            return shadings.size === 1 ? capital([...shadings][0] as string) : "Mixed";
+            return shadings.size === 1 ? capital([...shadings][0]) : "Mixed";
         }
         case "lights":
             return `${doc.lights.length}${doc.lights.some(({ shadow }) => shadow) ? ", shadow" : ""}`;

@@ -165,15 +165,14 @@ async function select(app: App, [x, y]: Spot, more: boolean): Promise<void> {
     }
 }
 
+function toggleLamps(): void {
+    show({ lamps: !open.peek().lamps });
+}
+
 const TOOLS = [
     { name: "turn", label: "Turn", hint: "Drag turns the view", does: () => show({ tool: "turn" }) },
     { name: "move", label: "Move objects", hint: "Drag moves objects (M)", does: () => show({ tool: "move" }) },
-    {
-        name: "light",
-        label: "Lights",
-        hint: "Show lights that can be dragged",
-        does: () => show({ lamps: !open.peek().lamps }),
-    },
+    { name: "light", label: "Lights", hint: "Show lights that can be dragged", does: toggleLamps },
 ] as const;
 
 function Tools({ app }: { app: App }) {

@@ -7,6 +7,7 @@ import type { App } from "../app.js";
 import { MIXED, type Control, type Value } from "../controls.js";
 import type { Document } from "../../document/document.js";
 import { capital } from "../../document/fields.js";
+import { clamped } from "../../scene/arithmetic.js";
 import { Icon } from "./icons.js";
 
 /** Units as they are shown in fields. */
@@ -89,7 +90,7 @@ function Slider({ app, of, value }: Shape) {
     const at = typeof value === "number" ? value : value === null ? high : low;
     const place = of.logarithmic ? (STEPS * Math.log(Math.max(at, low) / low)) / Math.log(high / low) : at;
     const [min, max] = of.logarithmic ? [0, STEPS] : [low, high];
-    const part = Math.min(Math.max((place - min) / (max - min), 0), 1);
+    const part = clamped((place - min) / (max - min), 0, 1);
     const read = (position: number): number =>
         of.logarithmic ? Number((low * (high / low) ** (position / STEPS)).toPrecision(3)) : position;
     return (

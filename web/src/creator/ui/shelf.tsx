@@ -162,15 +162,8 @@ function Genesis({ app }: { app: App }) {
             <div class="pieces">
                 {genesis.value.map((url, number) => {
                     const open = (): void => void openSeed(app, String(number));
-                    return (
-                        <Thumb
-                            key={number}
-                            id={`genesis-${number}`}
-                            title={`Genesis ${number}`}
-                            url={url}
-                            onClick={open}
-                        />
-                    );
+                    const title = `Genesis ${number}`;
+                    return <Thumb key={number} id={`genesis-${number}`} title={title} url={url} onClick={open} />;
                 })}
             </div>
         </>

@@ -2,7 +2,7 @@
 
 import { render } from "preact";
 import { useEffect } from "preact/hooks";
-import type { App } from "../app.js";
+import type { App, Toast } from "../app.js";
 import { IconButton } from "./icons.js";
 
 /** Show toasts above everything: outside of an open dialog all is inert, so they are inside of it. */
@@ -14,6 +14,8 @@ export function showToasts(app: App): void {
 
 function Toasts({ app, place }: { app: App; place: HTMLElement }) {
     const [toasts, dialog] = [app.toasts.value, app.dialog.value];
+    const spoken = (kind: Toast["kind"]): string =>
+        toasts.flatMap((each) => (each.kind === kind ? each.text : [])).join(". ");
     useEffect(() => {
         // the dialog opens after this
         requestAnimationFrame(() => (document.querySelector("dialog[open]") ?? document.body).append(place));
@@ -30,18 +32,8 @@ function Toasts({ app, place }: { app: App; place: HTMLElement }) {
                     </div>
                 ))}
             </div>
-            <div class="unseen" role="status">
-                {toasts
-                    .filter(({ kind }) => kind === "note")
-                    .map(({ text }) => text)
-                    .join(". ")}
-            </div>
-            <div class="unseen" role="alert">
-                {toasts
-                    .filter(({ kind }) => kind === "error")
-                    .map(({ text }) => text)
-                    .join(". ")}
-            </div>
+            <div class="unseen" role="status" children={spoken("note")} />
+            <div class="unseen" role="alert" children={spoken("error")} />
         </>
     );
 }

@@ -27,17 +27,14 @@ export interface Fields {
 
 /** Return the terms that the form states. InputError where it has none. */
 export function termsOf({ name, price, supply, royalty, model }: Fields): EditionTerms {
-    const [amount, most, percent] = [price.replace(/ether/, ""), supply, royalty].map((text) =>
-        text.trim(),
-    ) as string[];
-    if (!/^\d{1,20}(\.\d{1,18})?$/.test(amount!)) throw new InputError("The price is an amount of ether, such as 0.01");
-    if (!/^\d{0,10}$/.test(most!))
-        throw new InputError("The number of tokens is a whole number, or empty for no limit");
-    if (!/^\d+(\.\d+)?$/.test(percent!) || Number(percent) > MAX_ROYALTY) {
+    const [amount, most, percent] = [price.replace(/ether/, "").trim(), supply.trim(), royalty.trim()];
+    if (!/^\d{1,20}(\.\d{1,18})?$/.test(amount)) throw new InputError("The price is an amount of ether, such as 0.01");
+    if (!/^\d{0,10}$/.test(most)) throw new InputError("The number of tokens is a whole number, or empty for no limit");
+    if (!/^\d+(\.\d+)?$/.test(percent) || Number(percent) > MAX_ROYALTY) {
         throw new InputError(`The royalty is 0 to ${MAX_ROYALTY} percent`);
     }
     const numbers = { supply: most ? Number(most) : null, royalty: Math.round(100 * Number(percent)), copies: 1 };
-    return { name: oneLine(name), price: parseEther(amount!), ...numbers, model };
+    return { name: oneLine(name), price: parseEther(amount), ...numbers, model };
 }
 
 /** A quote, and what it is for. */
@@ -77,12 +74,12 @@ export async function planOf(session: Session, quoted: Quoted): Promise<Plan | n
     const own = [...(await Promise.all(parts)).flat(), add];
     const event = { address, abi: EDITIONS, eventName: "EditionAdded", args: { artist: account, scene } } as const;
     const [first, known] = await Promise.all([
-        priced(session, own[0]!, Number(own[0]!.gas)),
+        priced(session, own[0], Number(own[0].gas)),
         // nodes may not look back so far
         getContractEvents(client, { ...event, fromBlock: 0n }).catch(() => []),
     ]);
     const { fees, balance } = first;
-    const [usual, gas] = [withMargin(own[0]!.gas), first.call.gas];
+    const [usual, gas] = [withMargin(own[0].gas), first.call.gas];
     // some chains count gas otherwise; what comes later cannot be estimated yet, and is taken to be alike
     const calls = gas > usual ? own.map((call) => ({ ...call, gas: withMargin((call.gas * gas) / usual) })) : own;
     const most = calls.reduce((sum, { gas }) => sum + gas * fees.max, 0n);

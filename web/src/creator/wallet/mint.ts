@@ -92,9 +92,8 @@ async function kindsOf(
     const kinds: { number: number; name: string }[] = [];
     for (let at = Math.max(0, Number(count) - MOST); at < count; at += AT_ONCE) {
         const numbers = Array.from({ length: Math.min(AT_ONCE, Number(count) - at) }, (_, index) => at + index);
-        kinds.push(
-            ...(await Promise.all(numbers.map(async (number) => ({ number, name: oneLine(await nameOf(number)) })))),
-        );
+        const kindOf = async (number: number) => ({ number, name: oneLine(await nameOf(number)) });
+        kinds.push(...(await Promise.all(numbers.map(kindOf))));
     }
     return kinds;
 }

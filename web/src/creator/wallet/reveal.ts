@@ -84,7 +84,7 @@ export async function findReveal(
     const mined = rounds.filter((each) => !missing(each, latest));
     const read = { address, abi: GENESIS, functionName: "hashOf" } as const;
     const hashes = mined.map(({ block }) => readContract(client, { ...read, args: [BigInt(block)] }));
-    const hashed = (await Promise.all(hashes)).map((hash, index) => ({ ...mined[index]!, hash }));
+    const hashed = (await Promise.all(hashes)).map((hash, index) => ({ ...mined[index], hash }));
     const known = hashed.filter(({ hash }) => BigInt(hash) !== 0n);
     const later = leftOver(rounds, mined, known.length);
     if (!rounds.length) return null;
@@ -160,7 +160,7 @@ async function headerOf({ client }: Session, at: number, expected: Hex): Promise
         items.push(Number(size) > 0 ? pad(even, { size: Math.max(Number(size), even.length / 2 - 1) }) : even);
     }
     const header = toRlp(items);
-    if (keccak256(header) === expected) return { header, randomness: items[FIELDS.split(" ").indexOf("mixHash") / 2]! };
+    if (keccak256(header) === expected) return { header, randomness: items[FIELDS.split(" ").indexOf("mixHash") / 2] };
     throw new InputError(
         `The node of the wallet returned a wrong header of block ${count(at)}: its hash is not the one that the collection reads`,
     );

@@ -61,7 +61,7 @@ function pictureIn(png: Uint8Array): string {
     const found: Uint8Array[] = [];
     for (let at = 8; at + 12 <= png.length; at += 12 + view.getUint32(at)) {
         // the names of those that are needed begin with a capital letter
-        if (!(png[at + 4]! & 0x20)) found.push(png.subarray(at + 4, at + 8 + view.getUint32(at)));
+        if (!(png[at + 4] & 0x20)) found.push(png.subarray(at + 4, at + 8 + view.getUint32(at)));
     }
     return found.join();
 }

@@ -1,6 +1,6 @@
 // What the dialogs of wallets are made of, and the one thing that a wallet is asked to do at a time.
 
-import type { ComponentChildren } from "preact";
+import type { ComponentChildren, ComponentProps } from "preact";
 import { useEffect } from "preact/hooks";
 import { formatEther, type Address } from "viem";
 import type { App } from "../app.js";
@@ -63,13 +63,7 @@ export function Poor({ balance, most }: { balance: bigint; most: bigint }) {
 }
 
 /** A button that is dead while something is being done. */
-export function Act(props: {
-    name: string;
-    off?: boolean;
-    look?: string;
-    does: () => void;
-    children: ComponentChildren;
-}) {
+export function Act(props: ComponentProps<typeof Button>) {
     return <Button {...props} off={running() !== null || (props.off ?? false)} />;
 }
 

@@ -1,7 +1,7 @@
 // Calls of the contracts beside the Renderer: their selectors, the ABI encoding of arguments, and the gas of transactions.
 
 import { fromHex, joined } from "../../bytes.js";
-import { WORD, dynamicBytes } from "../../scene/encode.js";
+import { WORD, dynamicBytes, selectorOf } from "../../scene/encode.js";
 
 /** The selectors of the functions that are called, by contract. */
 export const SELECTORS = {
@@ -43,9 +43,7 @@ export function callOf(selector: number, ...values: readonly Argument[]): Uint8A
         end += tail.length;
         return word(end - tail.length);
     });
-    const name = new Uint8Array(4);
-    new DataView(name.buffer).setUint32(0, selector);
-    return joined([name, ...heads, ...tails]);
+    return joined([selectorOf(selector), ...heads, ...tails]);
 }
 
 /** Return the struct Scene in a call of `render`, as an argument of other calls. */

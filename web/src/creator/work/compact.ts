@@ -1,13 +1,8 @@
 // Compression of meshes and structs for storage; the formats are those of contracts/src/mesh/CompactMesh.sol and of solady's LibZip.
 
-import { unpackedPositions } from "../../scene/mesh.js";
+import { FACE, HEADER, NORMALS, WIDE, unpackedPositions } from "../../scene/mesh.js";
 
 const COMPACT = 0x10;
-/** Of packed meshes: bits of the first byte, bytes before the vertices and of a face. */
-const NORMALS = 1;
-const WIDE = 2;
-const HEADER = 5;
-const FACE = 6;
 /** Recent edges and vertices that a face may refer to. */
 const EDGES = 15;
 const RECENT = 14;

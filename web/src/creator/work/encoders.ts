@@ -31,10 +31,9 @@ export async function fileOf(
         return ask("Turntable", callOf(SELECTORS.Turntable.animate, structOf(call), ...turn));
     }
     if (format === "transparent") {
-        const over = (background: string): { bytes: Uint8Array } => ({
+        const pair = ["#000000", "#ffffff"].map((background) => ({
             bytes: host.draw({ ...scene, background }, true).bmp!,
-        });
-        const pair = [over("#000000"), over("#ffffff")];
+        }));
         if (scene.invert) pair.reverse();
         return withCall(ask("PngEncoder", callOf(SELECTORS.PngEncoder.encodeTransparent, ...pair, scale)), call);
     }
@@ -45,9 +44,8 @@ export async function fileOf(
 
 function checkSide({ width = 128, height = 128 }: Pick<Scene, "width" | "height">, scale: number): void {
     if (Math.max(width, height) * scale > MAX_FILE_SIDE) {
-        throw new InputError(
-            `A file can have up to ${MAX_FILE_SIDE.toLocaleString("en")} pixels a side: choose a smaller scale`,
-        );
+        const most = MAX_FILE_SIDE.toLocaleString("en");
+        throw new InputError(`A file can have up to ${most} pixels a side: choose a smaller scale`);
     }
 }
 

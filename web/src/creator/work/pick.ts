@@ -34,7 +34,7 @@ export function idAt({ width, height, ids }: Ids, x: number, y: number): number 
     const around = [0, -1, 1].flatMap((down) => [0, -1, 1].map((right) => [column + right, row + down] as const));
     for (const [at, line] of around) {
         if (at < 0 || at >= width || line < 0 || line >= height) continue;
-        const id = ids[line * width + at] as number;
+        const id = ids[line * width + at];
         if (id >= 0) return id;
     }
     return -1;

@@ -227,10 +227,8 @@ function reordered(object: SceneObject): SceneObject {
     // unused vertices, which are not sent, stay where they are
     const used = [...new Set(mesh.faces)].sort((a, b) => a - b);
     const numbers = new Map(used.map((vertex, number) => [vertex, number]));
-    const order = vertexOrder(
-        mesh.faces.map((vertex) => numbers.get(vertex)!),
-        used.length,
-    );
+    const faces = mesh.faces.map((vertex) => numbers.get(vertex)!);
+    const order = vertexOrder(faces, used.length);
     const permuted = (table: Float64Array | undefined, width: number): Float64Array | undefined => {
         const made = table?.slice();
         order.forEach((from, to) => {

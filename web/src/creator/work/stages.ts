@@ -1,6 +1,6 @@
 // A picture of the result of each stage of the pipeline, as src/shackled/stages.py draws them: docs/explain.md.
 
-import { add, boundsOf, cross, dot, rint, subtract, unit, type Vector } from "../../scene/arithmetic.js";
+import { add, boundsOf, clamped, cross, dot, rint, subtract, unit, type Vector } from "../../scene/arithmetic.js";
 import { drawCall, withFunction } from "../../picture.js";
 import { checkedMesh, checkedScene, worldPositions } from "../../scene/checked.js";
 import { encode } from "../../scene/encode.js";
@@ -35,10 +35,7 @@ export function stagesOf(host: Host, scene: Scene): Stage[] {
     const drawn = host.draw(scene);
     const counts = drawCall(host.evm, withFunction(encode(scene), "renderCounted"));
     const plain: Scene = { ...scene, invert: false, antialias: false };
-    const each = (change: (object: SceneObject) => SceneObject): Scene => ({
-        ...plain,
-        objects: plain.objects.map(change),
-    });
+    const [wires, shades] = [edges, filled].map((change) => ({ ...plain, objects: plain.objects.map(change) }));
     const say = (count: number | undefined): string => (count ?? 0).toLocaleString("en");
     const stage = (title: string, detail: string, picture: Picture): Stage => ({ title, detail, drawn: picture });
     return [
@@ -48,8 +45,8 @@ export function stagesOf(host: Host, scene: Scene): Stage[] {
             withDots(sent, specified(sent, points)),
         ),
         stage("Vertex shader", `${say(inside.length)} points on the canvas`, withDots(sent, inside)),
-        stage("Primitive assembly", `${say(counts.triangles)} triangles left`, overNothing(host, each(edges))),
-        stage("Rasterization", `${say(counts.litPixels)} pixels covered`, overNothing(host, each(filled))),
+        stage("Primitive assembly", `${say(counts.triangles)} triangles left`, overNothing(host, wires)),
+        stage("Rasterization", `${say(counts.litPixels)} pixels covered`, overNothing(host, shades)),
         stage("Fragment shader", lightsOf(scene), overNothing(host, plain)),
         stage("Compositing", `${drawn.width} x ${drawn.height} pixels, ${say(drawn.gas)} gas`, drawn),
     ];
@@ -104,7 +101,7 @@ function projected({ camera, width, height }: FittedScene, points: ReturnType<ty
 /** Draw points as dots over nothing, with the ellipses of Pillow. */
 function withDots({ width, height }: { width: number; height: number }, dots: Dot[]): Picture {
     const picture = nothing(width, height);
-    const few = Math.min(Math.max(5 - 1.6 * Math.log10(Math.max(1, dots.length)), 1), 4);
+    const few = clamped(5 - 1.6 * Math.log10(Math.max(1, dots.length)), 1, 4);
     const radius = Math.max(0.5, (Math.min(width, height) / 256) * few);
     for (const { x, y, color } of dots.toSorted((a, b) => a.order - b.order)) {
         const [left, right] = [Math.trunc(x - 0.5 - radius), Math.trunc(x - 0.5 + radius)];
@@ -164,9 +161,9 @@ function filled(object: SceneObject): SceneObject {
 function overNothing(host: Host, scene: Scene): Picture {
     const [black, white] = ["#000000", "#ffffff"].map((background) => host.draw({ ...scene, background }).pixels);
     const picture = nothing(scene.width ?? 128, scene.height ?? 128);
-    for (let at = 0; at < black!.length; at += 4) {
-        const pixel = black!.subarray(at, at + 4);
-        if (pixel.every((channel, index) => channel === white![at + index])) picture.pixels.set(pixel, at);
+    for (let at = 0; at < black.length; at += 4) {
+        const pixel = black.subarray(at, at + 4);
+        if (pixel.every((channel, index) => channel === white[at + index])) picture.pixels.set(pixel, at);
     }
     return picture;
 }

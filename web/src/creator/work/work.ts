@@ -1,6 +1,7 @@
 // The page's side of the workers: pictures, files and figures, all computed by the contracts.
 
 import script from "worker:creator/work/worker.ts";
+import { keptOrLoaded } from "../../evm/assets.js";
 import { moduleOf } from "../../evm/evm.js";
 import { checkedContracts } from "../../evm/contracts.js";
 import { checkedStages, type StageGas } from "../../evm/stages.js";
@@ -155,13 +156,8 @@ export class Work {
             this.call(doc, options),
         ]);
         const sha256 = (await hashPixels(drawn.pixels)) ?? "";
-        const page = await pageOf(this.#assets, {
-            doc,
-            drawn,
-            png: new Uint8Array(await png.arrayBuffer()),
-            call,
-            sha256,
-        });
+        const file = new Uint8Array(await png.arrayBuffer());
+        const page = await pageOf(this.#assets, { doc, drawn, png: file, call, sha256 });
         return new Blob([page], { type: "text/html" });
     }
 
@@ -201,13 +197,8 @@ export class Work {
 
     /** The index of the object at a fraction of the canvas from its upper left corner; -1 for none. */
     async pick(doc: Document, x: number, y: number, options?: Options): Promise<number> {
-        let ids = this.#ids.get(doc);
-        if (!ids) {
-            ids = this.#ask("ids", { doc }, options);
-            this.#ids.set(doc, ids);
-            ids.catch(() => this.#ids.delete(doc));
-        }
-        return idAt(await ids, x, y);
+        const ids = await keptOrLoaded(this.#ids, doc, () => this.#ask("ids", { doc }, options));
+        return idAt(ids, x, y);
     }
 
     /** What an edition takes, and whether it is possible. InputError for terms that are not. */
@@ -241,11 +232,7 @@ export class Work {
     }
 
     #supply<N extends keyof Supplies>(name: N): Promise<Supplies[N]> {
-        const loading = this.#supplies.get(name) ?? this.#load(name);
-        this.#supplies.set(name, loading);
-        // what could not be loaded may be there later
-        loading.catch(() => this.#supplies.delete(name));
-        return loading as Promise<Supplies[N]>;
+        return keptOrLoaded(this.#supplies, name, () => this.#load(name)) as Promise<Supplies[N]>;
     }
 
     async #load(name: keyof Supplies): Promise<Supplies[keyof Supplies]> {

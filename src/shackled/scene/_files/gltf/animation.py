@@ -1,19 +1,15 @@
 """Animations: the nodes of a glTF document at a time."""
 
-from __future__ import annotations
-
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ....base.checks import Floats
 from ....errors import InputError
 from ..table import Table
 from .document import Document, numbers
-
-Array = NDArray[np.float64]
 
 #: What a channel moves, and how many numbers it has; weights have as many as there are morph targets.
 _PATHS = {"translation": 3, "rotation": 4, "scale": 3, "weights": 0}
@@ -57,8 +53,7 @@ def _length(gltf: Document, animation: Table) -> float:
     return max((float(each.max()) for each in times if len(each) and np.isfinite(each).all()), default=0.0)
 
 
-def _sampled(gltf: Document, sampler: Table, path: str, time: float) -> Array:
-    """Return the value of a sampler at a time."""
+def _sampled(gltf: Document, sampler: Table, path: str, time: float) -> Floats:
     times = numbers(gltf, sampler, "input", "SCALAR")[:, 0].astype(np.float64)
     method = sampler.choice("interpolation", ("LINEAR", "STEP", "CUBICSPLINE"), "LINEAR")
     width, rows = _PATHS[path], 3 if method == "CUBICSPLINE" else 1
@@ -81,7 +76,7 @@ def _sampled(gltf: Document, sampler: Table, path: str, time: float) -> Array:
     return _turned(one, other, share) if path == "rotation" else one + share * (other - one)
 
 
-def _spline(one: Array, other: Array, step: float, s: float) -> Array:
+def _spline(one: Floats, other: Floats, step: float, s: float) -> Floats:
     """Return what lies between two keyframes, each of an incoming tangent, a value and an outgoing tangent."""
     return np.asarray(
         (2 * s**3 - 3 * s**2 + 1) * one[1]
@@ -91,7 +86,7 @@ def _spline(one: Array, other: Array, step: float, s: float) -> Array:
     )
 
 
-def _turned(one: Array, other: Array, share: float) -> Array:
+def _turned(one: Floats, other: Floats, share: float) -> Floats:
     """Return the rotation between two quaternions, on the shorter way."""
     cosine = float(one @ other)
     if cosine < 0:

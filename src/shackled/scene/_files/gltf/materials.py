@@ -1,17 +1,14 @@
 """Materials and textures of a glTF document, as far as they are drawn."""
 
-from __future__ import annotations
-
 import io
 import math
 from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 from PIL import Image
 
-from ....base.checks import Color
+from ....base.checks import Color, Floats
 from ....errors import InputError, warn
 from ..._fields import Filter
 from ..._mesh import DEFAULT_COLOR
@@ -19,8 +16,6 @@ from ..._texture import as_rgb, cutoff_of, open_image, to_srgb, with_alpha
 from ..model import FileWrap, Picture, finite_uvs
 from ..table import Table
 from .document import Document, Vertices
-
-Array = NDArray[np.float64]
 
 #: Filters and wraps of samplers, by their numbers in OpenGL.
 _NEAREST = 9728
@@ -132,7 +127,7 @@ def _gloss(keys: Table, is_older: bool) -> tuple[float, float] | None:
     return keys.number("roughnessFactor"), keys.number("metallicFactor", 1)
 
 
-def colors_of(vertices: Vertices, surface: Surface, where: str) -> Array:
+def colors_of(vertices: Vertices, surface: Surface, where: str) -> Floats:
     """Return colours of vertices with alpha, (n, 4), 0..255, without a texture's and the opacity of the material."""
     vertex_colors = vertices.values("COLOR_0", "VEC3", "VEC4")
     if surface is PLAIN and vertex_colors is None:
@@ -151,7 +146,7 @@ def colors_of(vertices: Vertices, surface: Surface, where: str) -> Array:
     return np.hstack([to_srgb(linear[:, :3]), alpha])
 
 
-def picture_on(vertices: Vertices, surface: Surface, where: str) -> tuple[Picture | None, Array]:
+def picture_on(vertices: Vertices, surface: Surface, where: str) -> tuple[Picture | None, Floats]:
     """Return the image of the base colour texture, None if there is none, and where the vertices are on it, (n, 2)."""
     nowhere = np.zeros((len(vertices.used), 2))
     if surface.texture is None:

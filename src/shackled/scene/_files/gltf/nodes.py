@@ -1,19 +1,15 @@
 """The nodes of a glTF document: where they are, which of them are shown, and how often; morph targets and skins."""
 
-from __future__ import annotations
-
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ....base.checks import Floats
 from ....errors import InputError
 from ..._arithmetic import rotation_of, units
 from ..table import Table, about
 from .document import Document, Vertices, numbers
-
-Array = NDArray[np.float64]
 
 #: The parts of a place, by their names as attributes, where they are not told.
 _RESTS: dict[str, tuple[float, ...]] = {"TRANSLATION": (0, 0, 0), "ROTATION": (0, 0, 0, 1), "SCALE": (1, 1, 1)}
@@ -24,7 +20,7 @@ class Node:
     """A node in its place: the matrix, (4, 4) for columns, puts it into the world. is_shown: in the scene, visible."""
 
     keys: Table
-    matrix: Array
+    matrix: Floats
     is_shown: bool
 
 
@@ -58,14 +54,13 @@ def placed(gltf: Document, nodes: Sequence[Table]) -> dict[int, Node]:
 
 
 def _links(keys: Table, key: str, count: int) -> list[int]:
-    """Return the numbers of nodes."""
     for place, number in keys.rows(key):
         if type(number) is not int or not 0 <= number < count:
             raise InputError(f"{place} is {number!r:.20}, but there are {count} nodes, numbered from 0")
     return list(keys.get(key) or [])
 
 
-def _matrices(nodes: Sequence[Table]) -> Array:
+def _matrices(nodes: Sequence[Table]) -> Floats:
     """Return the matrices of nodes, (n, 4, 4), each for what hangs on it."""
     columns = []
     for name, rest in _RESTS.items():
@@ -79,7 +74,7 @@ def _matrices(nodes: Sequence[Table]) -> Array:
     return found
 
 
-def _composed(places: Sequence[str], translations: Array, rotations: Array, scales: Array) -> Array:
+def _composed(places: Sequence[str], translations: Floats, rotations: Floats, scales: Floats) -> Floats:
     """Return the matrices, (n, 4, 4), of so many translations, rotations and scales. places: of each, for messages."""
     largest = np.abs(rotations).max(axis=1, keepdims=True, initial=0)
     bad = np.flatnonzero(~np.isfinite(largest[:, 0]) | (largest[:, 0] == 0))
@@ -95,7 +90,7 @@ def _composed(places: Sequence[str], translations: Array, rotations: Array, scal
     return matrices
 
 
-def instances(gltf: Document, node: Node, triangles: int) -> Array:
+def instances(gltf: Document, node: Node, triangles: int) -> Floats:
     """Return the matrices, (n, 4, 4), that put the mesh of a node, of so many triangles, into the world.
 
     One, or one for each instance, of which the triangles are counted before anything is made.
@@ -114,7 +109,7 @@ def instances(gltf: Document, node: Node, triangles: int) -> Array:
     (count,) = counts
     gltf.show(count * triangles)
     columns = [np.asarray(given.get(name, np.tile(rest, (count, 1))), np.float64) for name, rest in _RESTS.items()]
-    placed: Array = node.matrix @ _composed([attributes.where] * count, *columns)
+    placed: Floats = node.matrix @ _composed([attributes.where] * count, *columns)
     return placed
 
 
@@ -122,7 +117,7 @@ def instances(gltf: Document, node: Node, triangles: int) -> Array:
 _MORPHED = {"POSITION", "NORMAL", "TANGENT"}
 
 
-def morphed(vertices: Vertices, primitive: Table, weights: Array, name: str, values: Array) -> Array:
+def morphed(vertices: Vertices, primitive: Table, weights: Floats, name: str, values: Floats) -> Floats:
     """Return values of vertices, (n, 3), of the attribute POSITION or NORMAL, moved by the morph targets."""
     for keys, weight in zip(primitive.tables("targets"), weights, strict=False):
         if weight == 0:
@@ -134,7 +129,7 @@ def morphed(vertices: Vertices, primitive: Table, weights: Array, name: str, val
     return values
 
 
-def skinned(vertices: Vertices, node: Table, nodes: Mapping[int, Node]) -> Array | None:
+def skinned(vertices: Vertices, node: Table, nodes: Mapping[int, Node]) -> Floats | None:
     """Return the mean of the matrices of joints, (n, 4, 4), that puts vertices into the world; None without a skin."""
     if "skin" not in node or "JOINTS_0" not in vertices.attributes:
         return None
@@ -159,7 +154,7 @@ def skinned(vertices: Vertices, node: Table, nodes: Mapping[int, Node]) -> Array
     return found
 
 
-def _joints(gltf: Document, skin: Table, nodes: Mapping[int, Node]) -> Array:
+def _joints(gltf: Document, skin: Table, nodes: Mapping[int, Node]) -> Floats:
     """Return the matrices of the joints of a skin, (n, 4, 4), from where the mesh was bound to them into the world."""
     worlds = []
     for place, number in skin.rows("joints"):
@@ -172,5 +167,5 @@ def _joints(gltf: Document, skin: Table, nodes: Mapping[int, Node]) -> Array:
     bound = numbers(gltf, skin, "inverseBindMatrices", "MAT4").astype(np.float64)
     if len(bound) < len(found):
         raise InputError(f"{skin.where} has {len(found)} joints, but {len(bound)} inverseBindMatrices")
-    product: Array = found @ bound[: len(found)].reshape(-1, 4, 4).transpose(0, 2, 1)
+    product: Floats = found @ bound[: len(found)].reshape(-1, 4, 4).transpose(0, 2, 1)
     return product

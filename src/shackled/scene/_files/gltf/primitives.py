@@ -1,13 +1,11 @@
 """Primitives of meshes: their triangles, posed."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from ....base.checks import Floats, Ints
 from ....errors import InputError
 from ..._arithmetic import units
 from ..model import Picture, tinted
@@ -16,8 +14,6 @@ from .document import Document, Vertices, numbers
 from .draco import decompress
 from .materials import Surface, colors_of, picture_on, surface_of
 from .nodes import Node, morphed, skinned
-
-Array = NDArray[np.float64]
 
 _POINTS_OR_LINES, _TRIANGLES, _STRIP, _FAN = range(4), 4, 5, 6
 
@@ -30,15 +26,15 @@ class Piece:
     matrices: (n, 4, 4), that put skinned vertices into the world. turn: (m,), when a triangle has its turn.
     """
 
-    positions: Array
-    faces: NDArray[np.int64]
-    colors: Array
-    normals: Array
+    positions: Floats
+    faces: Ints
+    colors: Floats
+    normals: Floats
     surface: Surface
     picture: Picture | None
-    uvs: Array
-    matrices: Array | None
-    turn: NDArray[np.int64]
+    uvs: Floats
+    matrices: Floats | None
+    turn: Ints
 
     @property
     def group(self) -> tuple[object, ...]:
@@ -96,7 +92,7 @@ def pieces_of(gltf: Document, node: Node, nodes: Mapping[int, Node]) -> Iterator
         yield Piece(points, faces, colors, normals, surface, picture, uvs, matrices, np.zeros(len(faces), int))
 
 
-def _corners(gltf: Document, primitive: Table, mode: int, count: int) -> NDArray[np.int64]:
+def _corners(gltf: Document, primitive: Table, mode: int, count: int) -> Ints:
     """Return the triangles of a mode, (m, 3), as numbers of so many corners."""
     if mode == _TRIANGLES:
         if count % 3:
@@ -110,7 +106,7 @@ def _corners(gltf: Document, primitive: Table, mode: int, count: int) -> NDArray
     raise InputError(f"{primitive.place('mode')} must be from 0 to 6, not {mode}")
 
 
-def in_place(piece: Piece, matrices: Array, turn: int) -> Piece:
+def in_place(piece: Piece, matrices: Floats, turn: int) -> Piece:
     """Return a piece where each of some matrices, (k, 4, 4), puts it, from a turn on; or its joints, if skinned."""
     count, points = len(matrices), len(piece.positions)
     matrix = matrices[:, None] if piece.matrices is None else piece.matrices
@@ -134,7 +130,7 @@ def in_place(piece: Piece, matrices: Array, turn: int) -> Piece:
     )
 
 
-def _times(matrices: Array, vectors: Array, count: int) -> Array:
+def _times(matrices: Floats, vectors: Floats, count: int) -> Floats:
     """Return vectors, (n, 3), times each of (count, 1, 3, 3) matrices, or as often times their own, (n, 3, 3)."""
     if matrices.ndim == 4:
         return np.asarray(vectors @ matrices[:, 0].transpose(0, 2, 1))

@@ -1,7 +1,5 @@
 """The cameras and lights of a glTF document."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Mapping
 from pathlib import Path
@@ -9,8 +7,9 @@ from typing import Any
 
 import numpy as np
 from attrs import evolve
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 
+from ....base.checks import Floats
 from ....base.values import plural
 from ....errors import InputError, warn
 from ..._arithmetic import units
@@ -55,10 +54,10 @@ def _camera(gltf: Document, nodes: Mapping[int, Node], name: str | int) -> Camer
         return Camera(eye, eye - back, node.matrix[:3, 1], kind, half_height, lens.number("znear"))
 
 
-def _lights(gltf: Document, nodes: Mapping[int, Node], middle: NDArray[np.float64]) -> list[Light]:
+def _lights(gltf: Document, nodes: Mapping[int, Node], middle: Floats) -> list[Light]:
     """Return the lights that are shown, the brightest first."""
     declared = gltf.keys.table("extensions").table(_LIGHTS).tables("lights")
-    found: list[tuple[float, NDArray[np.float64], Light]] = []
+    found: list[tuple[float, Floats, Light]] = []
     for node in nodes.values():
         keys = node.keys.table("extensions").table(_LIGHTS)
         if not node.is_shown or "light" not in keys:
@@ -82,7 +81,7 @@ def _lights(gltf: Document, nodes: Mapping[int, Node], middle: NDArray[np.float6
     return [evolve(light, color=to_srgb(strength * color / most).astype(int)) for strength, color, light in found]
 
 
-def _back(node: Node) -> NDArray[np.float64]:
+def _back(node: Node) -> Floats:
     """Return the direction of z; as at rest for a node that is scaled to nothing, as hidden ones are."""
     back = units(node.matrix[:3, 2])
     return back if back.any() else np.array([0.0, 0.0, 1.0])
