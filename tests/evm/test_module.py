@@ -41,7 +41,7 @@ def test_it_imports_nothing() -> None:
     assert list(module.imports) == []
     names = {"allocate", "answer", "answer_size", "call", "create", "deploy", "describe", "gas_used", "memory"}
     names |= {"profile", "put", "release", "send", "set_block", "table", "table_size"}
-    names |= {"busiest", "calculate", "compile", "copy", "grow", "link", "module", "read_data"}
+    names |= {"busiest", "calculate", "compile", "copy", "grow", "link", "module"}
     assert {each.name for each in module.exports if not each.name.startswith("__")} == names
 
 

@@ -150,7 +150,6 @@ def test_highlight_of_wires(size: int, shininess: int, most: int) -> None:
 SEEDS = range(1, 5)
 
 
-@pytest.mark.usefixtures("each_evm")
 @pytest.mark.parametrize("kind", TAME)
 def test_random_scenes(kind: str) -> None:
     found = sum((judge(f"{kind} {seed}", random_scene(kind, seed)) for seed in SEEDS), Verdict())
