@@ -5,7 +5,7 @@ Names of failures are left out: they differ between versions of revm.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from functools import cache
 from typing import Any
 
@@ -45,22 +45,25 @@ def _once(
 
 
 class Ours:
-    """The EVM of the package, one instance for all calls. region: of compiled code; None for the interpreter."""
+    """The EVM of the package, one instance for all calls. region: of compiled code; None for the interpreter.
 
-    def __init__(self, region: int | None = None) -> None:
+    interpreted: codes that are not compiled.
+    """
+
+    def __init__(self, region: int | None = None, interpreted: Collection[bytes] = ()) -> None:
         with pytest.MonkeyPatch.context() as patch:
             patch.setenv("SHACKLED_EVM", "interpreter")
             self.instance = Instance()
         self.region = region
-        self._compiled: set[bytes] = set()
+        self._done: set[bytes] = {b"", *interpreted}
 
     def put(self, address: bytes, code: bytes) -> None:
         """Set the code of a contract, and compile it."""
         self.instance.put(address, code)
-        if self.region is not None and code and code not in self._compiled:
+        if self.region is not None and code not in self._done:
             module = wasmtime.Module(_compiler(self.instance._kind), self.instance.translate(code, self.region))
             assert self.instance._link(address, wasmtime.Module.deserialize(self.instance._engine, module.serialize()))
-            self._compiled.add(code)
+            self._done.add(code)
 
     def call(self, codes: Codes, address: bytes, data: bytes, gas: int) -> Answer:
         for each, code in codes.items():
