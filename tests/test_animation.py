@@ -42,7 +42,7 @@ def test_a_gif_has_one_palette() -> None:
     film = Animation([greys[:8], greys[8:]])
     assert np.array_equal(frames(film.encode(".gif")), film.pixels)
     for count, is_exact in ((255, True), (256, True), (257, False)):
-        chosen = RNG.permutation(1 << 24)[:count]
+        chosen = RNG.choice(1 << 24, count, replace=False)
         pixels = np.stack([chosen >> 16, chosen >> 8 & 255, chosen & 255], axis=1).astype(np.uint8)[None]
         assert np.array_equal(frames(Animation([pixels]).encode(".gif"))[0], pixels) == is_exact
 

@@ -97,8 +97,8 @@ def agree_with_pyrevm(ours: Ours, code: bytes, data: bytes = b"", gas: int = GAS
 @pytest.mark.parametrize(("operands", "code"), [(n, code) for n, codes in PURE.items() for code in codes])
 def test_results_at_the_edges(ours: Ours, operands: int, code: int) -> None:
     """Each instruction, for numbers around all powers of two that matter, in all pairs: constants."""
-    # code of that length is compiled slowly: compiled contracts have the next test, which is the same for regions of one
-    # instruction, whose operands are on the stack
+    # code of that length is compiled slowly: compiled contracts have the next test, which is the same where regions are
+    # of one instruction, whose operands are on the stack
     thin = (1 if operands < 3 else 4) * {None: 1, 1: 12}.get(ours.region, 3)
     cases = list(itertools.product(EDGES[::thin], repeat=operands))
     program = b"".join(op(code, *case) + op(MSTORE, 32 * n) for n, case in enumerate(cases))

@@ -62,7 +62,7 @@ class Case:
     tile: Rectangle
 
 
-@lru_cache(400)
+@lru_cache(500)
 def random_case(seed: int, kind: str | None = None) -> Case:
     """Return the case of a seed, of any kind or of one; then something is seen in nearly all."""
     rng = np.random.default_rng(seed)

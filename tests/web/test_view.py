@@ -128,7 +128,7 @@ def show(browser: Any, tmp_path: Path) -> Iterator[Opener]:
 def test_the_picture_is_that_of_python(show: Opener) -> None:
     view = show()
     for name in ("teapot", "icons/crown", "genesis/0"):
-        drawn = load(name)
+        drawn = load(name, size=80)
         image = render(drawn)
         details = view.after(view.dropped(render_call(drawn)))
         assert details["sha256"] == image.sha256
