@@ -1,7 +1,5 @@
 """Animations as files."""
 
-from __future__ import annotations
-
 import io
 import re
 from pathlib import Path

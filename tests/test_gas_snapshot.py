@@ -1,7 +1,5 @@
 """No figure of benchmarks/gas.json may rise unnoticed."""
 
-from __future__ import annotations
-
 import warnings
 
 import pytest

@@ -1,7 +1,5 @@
 """The command `shackled render`."""
 
-from __future__ import annotations
-
 import hashlib
 import json
 import re

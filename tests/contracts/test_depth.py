@@ -1,7 +1,5 @@
 """What is in front is seen."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from attrs import evolve

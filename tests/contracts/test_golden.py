@@ -1,7 +1,5 @@
 """No pixel and no gas of tests/support/golden.json may change unnoticed."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 
 import pytest

@@ -1,7 +1,5 @@
 """The part of `make conformance` that is quick enough for every run of the tests; and what the judge finds."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from attrs import evolve

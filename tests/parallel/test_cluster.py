@@ -1,7 +1,5 @@
 """Workers of a dask cluster."""
 
-from __future__ import annotations
-
 import json
 import re
 import socket

@@ -6,8 +6,6 @@
 A change of pixels shows in the diff of golden.json as a change of gas does; a refactoring leaves the file alone.
 """
 
-from __future__ import annotations
-
 import argparse
 import json
 import sys

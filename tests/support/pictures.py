@@ -1,7 +1,5 @@
 """What the tests ask of the contracts, and the scenes that they share."""
 
-from __future__ import annotations
-
 from functools import cache
 from typing import Any
 

@@ -1,7 +1,5 @@
 """Random scenes of many kinds, each from its kind and a seed, as a user might send them; and calls that are wrong."""
 
-from __future__ import annotations
-
 import zlib
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass

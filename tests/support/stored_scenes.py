@@ -1,7 +1,5 @@
 """Scenes in the Studio of a `World`: stored, drawn with changes, and turned as it turns them."""
 
-from __future__ import annotations
-
 import io
 from typing import Any
 

@@ -1,7 +1,5 @@
 """The collection of scenes that are kept on chain."""
 
-from __future__ import annotations
-
 import base64
 import io
 

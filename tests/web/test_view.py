@@ -1,7 +1,5 @@
 """The custom element <shackled-view>, in chromium, on a page opened from disk."""
 
-from __future__ import annotations
-
 import base64
 import time
 from collections.abc import Callable, Iterator
