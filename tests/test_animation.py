@@ -1,7 +1,5 @@
 """Animations as files."""
 
-from __future__ import annotations
-
 import io
 import re
 from pathlib import Path
@@ -11,6 +9,7 @@ import pytest
 from PIL import Image as PillowImage
 from PIL import ImageSequence
 
+from pictures import frames_of, pixels_of
 from shackled import Animation, Image, InputError
 from shackled.animation import FORMATS, check_animation, frame_names
 
@@ -23,28 +22,23 @@ MANY = Animation([RNG.integers(0, 256, (30, 40, 3), np.uint8) for _ in range(3)]
 EXACT = [extension for extension in FORMATS if extension != ".mp4"]
 
 
-def frames(data: bytes) -> np.ndarray:
-    with PillowImage.open(io.BytesIO(data)) as file:
-        return np.stack([np.array(frame.convert("RGB")) for frame in ImageSequence.Iterator(file)])
-
-
 @pytest.mark.parametrize(("animation", "extension"), [*((FEW, each) for each in EXACT), (MANY, ".png")])
 def test_every_pixel_is_kept(animation: Animation, extension: str) -> None:
-    assert np.array_equal(frames(animation.encode(extension)), animation.pixels)
+    assert np.array_equal(frames_of(animation.encode(extension)), animation.pixels)
 
 
 def test_a_gif_has_one_palette() -> None:
-    found = frames(MANY.encode(".gif"))
+    found = np.stack(frames_of(MANY.encode(".gif")))
     assert len(np.unique(found.reshape(-1, 3), axis=0)) <= 256
     assert np.abs(found.astype(int) - MANY.pixels).mean() < 25
     # all greys, near one another, in two frames
     greys = np.arange(256, dtype=np.uint8).reshape(16, 16, 1).repeat(3, axis=2)
     film = Animation([greys[:8], greys[8:]])
-    assert np.array_equal(frames(film.encode(".gif")), film.pixels)
+    assert np.array_equal(frames_of(film.encode(".gif")), film.pixels)
     for count, is_exact in ((255, True), (256, True), (257, False)):
-        chosen = RNG.permutation(1 << 24)[:count]
+        chosen = RNG.choice(1 << 24, count, replace=False)
         pixels = np.stack([chosen >> 16, chosen >> 8 & 255, chosen & 255], axis=1).astype(np.uint8)[None]
-        assert np.array_equal(frames(Animation([pixels]).encode(".gif"))[0], pixels) == is_exact
+        assert np.array_equal(pixels_of(Animation([pixels]).encode(".gif")), pixels) == is_exact
 
 
 def test_formats_with_and_without_a_dot() -> None:

@@ -1,7 +1,5 @@
 """What the benchmarks claim: gas grows with triangles and pixels in a straight line; stages add up to the whole."""
 
-from __future__ import annotations
-
 import csv
 import hashlib
 import json
@@ -214,12 +212,13 @@ def test_help_does_nothing_else() -> None:
 
 
 def test_a_package_that_is_missing_is_named() -> None:
-    for name, package in (("tokens", "pyrevm"), ("look_quality", "flip-evaluator"), ("quality", "moderngl")):
-        done = without_packages([f"benchmarks.{name}"])
-        assert done.stdout.startswith(
+    packages = {"tokens": "pyrevm", "look_quality": "flip-evaluator", "quality": "moderngl"}
+    done = without_packages([f"benchmarks.{name}" for name in packages])
+    for (name, package), line in zip(packages.items(), done.stdout.splitlines(), strict=True):
+        assert line.startswith(
             f"benchmarks.{name}: the package {package.replace('-', '_')} is not installed: pip install {package}"
         )
-        assert "Traceback" not in done.stderr
+    assert "Traceback" not in done.stderr
 
 
 def test_scenes_of_which_some_are_missing_are_skipped(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

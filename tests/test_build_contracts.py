@@ -1,7 +1,5 @@
 """The tool that compiles the contracts."""
 
-from __future__ import annotations
-
 import builtins
 import json
 import re

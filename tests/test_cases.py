@@ -1,19 +1,16 @@
 """Files as people have them: cases.toml says what becomes of each."""
 
-from __future__ import annotations
-
 import re
 import shlex
 import tomllib
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 import pytest
 from benchmarks import shared
-from PIL import Image
 
 import case_files
+from pictures import pixels_of
 from shackled.cli.app import run
 
 CASES = shared.SHARED / "review" / "cases"
@@ -46,11 +43,6 @@ def file_of(row: dict[str, Any], folder: Path) -> Path:
     return made
 
 
-def drawn(path: Path) -> Any:
-    with Image.open(path) as picture:
-        return np.asarray(picture.convert("RGB"))
-
-
 @pytest.mark.parametrize("row", ROWS, ids=[str(row.get("file") or row.get("make") or row["name"]) for row in ROWS])
 def test_what_becomes_of_a_file(row: dict[str, Any], tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert row.keys() <= KEYS
@@ -73,20 +65,20 @@ def test_what_becomes_of_a_file(row: dict[str, Any], tmp_path: Path, capsys: pyt
     if "empty" in row:
         assert re.search(row["empty"], said[0]), said
         assert said[1:] == ["nothing is visible; the picture shows only the background"]
-        assert (drawn(picture) == (0x10, 0x20, 0x30)).all()
+        assert (pixels_of(picture) == (0x10, 0x20, 0x30)).all()
         return
     assert len(said) == len(expected), said
     for line, pattern in zip(said, expected, strict=True):
         assert line.startswith(NOTE), line
         assert re.search(pattern, line), line
-    pixels = drawn(picture)
+    pixels = pixels_of(picture)
     if "shows" in row:
         count = len(row["shows"])
         middles = [pixels[32, 64 * (2 * step + 1) // (2 * count)] for step in range(count)]
         assert [bytes(each).hex() for each in middles] == row["shows"]
     if "like" in row:
         render(shared_file(row["like"]))
-        assert (drawn(picture) == pixels).all()
+        assert (pixels_of(picture) == pixels).all()
     picture.unlink()
     assert render(path, "--strict")[0] == (2 if expected else 0)
     assert picture.exists() == (not expected)

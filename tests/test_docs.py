@@ -1,7 +1,5 @@
 """The Python code and the commands of the documentation, and the short programs."""
 
-from __future__ import annotations
-
 import ast
 import json
 import re
@@ -17,9 +15,6 @@ import click
 import numpy as np
 import pytest
 from click.testing import CliRunner
-from numpy.typing import NDArray
-from PIL import Image as PillowImage
-from PIL import ImageSequence
 from tools.docs.contract_reference import MARK, filled
 from tools.docs.definition import FILE as DEFINITION
 from tools.docs.definition import named, on_page_markdown
@@ -27,6 +22,7 @@ from tools.docs.definition import named, on_page_markdown
 import shackled
 from animated_gltf import write
 from nodes import KEY, Node
+from pictures import frames_of
 from shackled.artifacts import artifact
 from shackled.cli.app import app
 
@@ -124,11 +120,6 @@ def gallery() -> list[tuple[str, str, str]]:
     return re.findall(r"!\[[^]]*\]\((images/gallery/[^)]*)\)[^`]*" + commands, page)
 
 
-def frames(path: Path) -> list[NDArray[np.uint8]]:
-    with PillowImage.open(path) as opened:
-        return [np.asarray(frame.convert("RGB")) for frame in ImageSequence.Iterator(opened)]
-
-
 @pytest.mark.parametrize(("picture", "example", "command"), gallery(), ids=[Path(name).stem for name, *_ in gallery()])
 def test_a_command_of_the_gallery_draws_its_picture(picture: str, example: str, command: str, folder: Path) -> None:
     if example:
@@ -136,7 +127,7 @@ def test_a_command_of_the_gallery_draws_its_picture(picture: str, example: str, 
         subprocess.run([sys.executable, ROOT / script, *arguments], check=True)
     result = CliRunner().invoke(app, shlex.split(command), catch_exceptions=False)
     assert result.exit_code == 0, result.output
-    shown, drawn = frames(DOCS / picture), frames(folder / Path(picture).name)
+    shown, drawn = frames_of(DOCS / picture), frames_of(folder / Path(picture).name)
     assert len(shown) == len(drawn)
     assert all(map(np.array_equal, shown, drawn)), "run python -m tools.docs.draw_gallery"
 

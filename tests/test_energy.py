@@ -1,7 +1,5 @@
 """Shares of a year, computed by hand."""
 
-from __future__ import annotations
-
 from benchmarks.energy import CCAF_2023, CCRI_2022, estimates
 
 

@@ -1,7 +1,5 @@
 """Pictures as files."""
 
-from __future__ import annotations
-
 import io
 import pickle
 import re
@@ -15,6 +13,7 @@ import pytest
 from attrs import evolve
 from PIL import Image as PillowImage
 
+from pictures import pixels_of
 from shackled import Animation, Camera, Image, InputError, Light, Mesh, Object, Processes, RenderError, Scene, render
 from shackled.animation import check_animation
 from shackled.artifacts import artifact
@@ -36,11 +35,6 @@ SCENE = Scene(
 @pytest.fixture(scope="module")
 def image() -> Image:
     return render(SCENE)
-
-
-def opened(data: bytes) -> np.ndarray:
-    with PillowImage.open(io.BytesIO(data)) as picture:
-        return np.array(picture.convert("RGB"))
 
 
 def bmp_of(pixels: np.ndarray) -> bytes:
@@ -73,17 +67,17 @@ def test_files_hold_the_pixels_of_the_contract(image: Image, tmp_path: Path, ext
     few.save(path)
     data = path.read_bytes()
     assert data == few.encode(extension) == few.encode(extension[1:]) == few.encode(extension.upper())
-    difference = np.abs(opened(in_svg(data) if extension == ".svg" else data).astype(int) - few.pixels)
+    difference = np.abs(pixels_of(in_svg(data) if extension == ".svg" else data).astype(int) - few.pixels)
     assert difference.mean() < 4 if "j" in extension else not difference.any()
     assert [entry.name for entry in tmp_path.iterdir()] == [path.name]
 
 
 def test_files_that_are_near_or_the_contracts_own(image: Image) -> None:
     assert image.encode("bmp") == image.bmp
-    assert (opened(image._repr_png_()) == image.pixels).all()
-    assert 0 < np.abs(opened(image.encode("jpg")).astype(int) - image.pixels).mean() < 2
+    assert (pixels_of(image._repr_png_()) == image.pixels).all()
+    assert 0 < np.abs(pixels_of(image.encode("jpg")).astype(int) - image.pixels).mean() < 2
     pixels = np.random.default_rng(0).integers(0, 256, (40, 40, 3)).astype(np.uint8) // 8
-    assert 0 < np.abs(opened(Image(pixels).encode(".gif")).astype(int) - pixels).max() < 16
+    assert 0 < np.abs(pixels_of(Image(pixels).encode(".gif")).astype(int) - pixels).max() < 16
 
 
 def test_an_svg_holds_a_png(image: Image) -> None:

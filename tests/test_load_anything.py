@@ -1,7 +1,5 @@
 """Everything that can be handed in to `load` and `render`, and what can be set of its look."""
 
-from __future__ import annotations
-
 import re
 import sys
 from itertools import pairwise

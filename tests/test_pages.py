@@ -1,7 +1,5 @@
 """Figures are written between the marks of a page, and nowhere else."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -1,13 +1,11 @@
 """The pictures of the pipeline."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import numpy as np
 import pytest
-from PIL import Image as PillowImage
 
+from pictures import pixels_of
 from shackled import Background, Camera, Light, Material, Mesh, Object, Scene, render
 from shackled.cli.app import run
 from shackled.datasets import teapot
@@ -106,9 +104,8 @@ def test_the_command_writes_pictures(tmp_path: Path, capsys: pytest.CaptureFixtu
     names = ["1-vertices", "2-projected", "3-triangles", "4-filled", "5-lit", "6-picture", "strip"]
     assert sorted(path.stem for path in folder.iterdir()) == names
     assert "compositing, 32 x 32 pixels" in capsys.readouterr().out
-    pictures = {name: np.array(PillowImage.open(folder / f"{name}.png").convert("RGB")) for name in names}
+    pictures = {name: pixels_of(folder / f"{name}.png") for name in names}
     assert {pictures[name].shape for name in names[:-1]} == {(32, 32, 3)}
     assert pictures["strip"].shape[1] > 6 * 224
     assert run(["render", "teapot", "-o", str(tmp_path / "whole.png"), *look]) == 0
-    with PillowImage.open(tmp_path / "whole.png") as whole:
-        assert (np.array(whole.convert("RGB")) == pictures["6-picture"]).all()
+    assert (pixels_of(tmp_path / "whole.png") == pictures["6-picture"]).all()

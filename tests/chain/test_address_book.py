@@ -1,7 +1,5 @@
 """The address book: a file that is whole, or said to be broken."""
 
-from __future__ import annotations
-
 import errno
 import json
 import sys

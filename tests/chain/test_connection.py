@@ -1,7 +1,5 @@
 """Connections: every way in which a node can fail is one line that says what to do, and never shows a key."""
 
-from __future__ import annotations
-
 import pickle
 import re
 import threading

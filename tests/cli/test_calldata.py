@@ -1,7 +1,5 @@
 """--calldata, which several commands have."""
 
-from __future__ import annotations
-
 import pytest
 
 from commands import Shackled

@@ -1,7 +1,5 @@
 """The command `shackled deploy`."""
 
-from __future__ import annotations
-
 import json
 import os
 import subprocess

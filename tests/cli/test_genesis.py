@@ -1,14 +1,12 @@
 """The command `shackled genesis`."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 
 import numpy as np
-from PIL import Image as PillowImage
 
 from commands import Shackled
+from pictures import pixels_of
 from shackled import render
 from shackled.datasets.genesis import generate, seed_of
 from shackled.ethereum._encoding import keccak256
@@ -36,10 +34,8 @@ def test_words(shackled: Shackled) -> None:
 
 def test_pictures(shackled: Shackled) -> None:
     assert "from seed to picture" in shackled("genesis 7 -o seven.png").out
-    with PillowImage.open("seven.png") as picture:
-        pixels = np.array(picture.convert("RGB"))
     scene = generate(seed_of(7)).scene()
-    np.testing.assert_array_equal(pixels, render(scene).pixels)
+    np.testing.assert_array_equal(pixels_of("seven.png"), render(scene).pixels)
     shackled("render genesis/7 -o seven.bmp --size 32 --no-antialias")
     assert Path("seven.bmp").read_bytes() == render(scene, 32).bmp
 

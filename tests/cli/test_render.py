@@ -1,7 +1,5 @@
 """The command `shackled render`."""
 
-from __future__ import annotations
-
 import hashlib
 import json
 import re
@@ -11,9 +9,9 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from PIL import Image as PillowImage
 
 from commands import Shackled
+from pictures import pixels_of
 from shackled import Camera, InputError, Mesh, Object, Rim, Scene, Tone, load, render
 from shackled.base import whole_file
 from shackled.chain._embedded import RevmChain
@@ -25,21 +23,16 @@ from shackled.scene._codec import render_call
 from shackled.studio import make_apng
 
 
-def pixels(path: str) -> np.ndarray:
-    with PillowImage.open(path) as picture:
-        return np.array(picture.convert("RGB"))
-
-
 def rendered(options: str = "") -> np.ndarray:
     """The pixels of the shape at 32 x 32 with these options."""
     assert run(["render", "shape.obj", "-o", "out.png", "--size", "32", *options.split()]) == 0
-    return pixels("out.png")
+    return pixels_of("out.png")
 
 
 def test_a_mesh_becomes_a_picture(shackled: Shackled) -> None:
     said = shackled("render shape.obj")
     expected = render(load("shape.obj"))
-    assert (pixels("shape.png") == expected.pixels).all()
+    assert (pixels_of("shape.png") == expected.pixels).all()
     assert len(np.unique(expected.pixels.reshape(-1, 3), axis=0)) > 50
     assert "shape.png, 256 x 256 pixels" in said.out
     assert f"{expected.gas:,} (and {expected.intrinsic_gas:,} to send the scene)" in said.out
@@ -50,7 +43,7 @@ def test_a_mesh_becomes_a_picture(shackled: Shackled) -> None:
 
 def test_one_json_object_says_it_all(shackled: Shackled) -> None:
     said = shackled("render shape.obj -o a.bmp --size 30x20 --json")
-    report, image = said.json, pixels("a.bmp")
+    report, image = said.json, pixels_of("a.bmp")
     keys = "input width height triangles lit_pixels gas intrinsic_gas seconds chain output sha256 scene_bytes fits"
     assert " ".join(report) == f"{keys} frames calls"
     assert report["scene_bytes"] is None
@@ -84,7 +77,7 @@ def test_where_it_fits(shackled: Shackled) -> None:
 
 def test_a_picture_is_made_to_fit(shackled: Shackled) -> None:
     said = shackled("render shape.obj --size 700 --fit transaction")
-    width = len(pixels("shape.png"))
+    width = len(pixels_of("shape.png"))
     assert 128 < width < 700
     assert "fits     free to read on most nodes; a contract can draw it inside a transaction\n" in said.out
     size = f"at {width} x {width} instead of 700 x 700 pixels"
@@ -192,7 +185,7 @@ def test_a_gif_of_256_colours_is_exact(shackled: Shackled) -> None:
         Path("grey.json").write_text(json.dumps(scene), "utf-8")
         assert ("a GIF has at most 256 colours" in shackled("render grey.json -o grey.gif").err) == told
         shackled("render grey.json -o grey.png")
-        assert (pixels("grey.gif") == pixels("grey.png")).all() != told
+        assert (pixels_of("grey.gif") == pixels_of("grey.png")).all() != told
 
 
 # ---- scenes in pictures ----
@@ -258,7 +251,7 @@ def test_a_turntable_carries_its_scene(output: str, shackled: Shackled) -> None:
     turned = f"render shape.obj --size 8 --turntable 2 -o {output}"
     assert scene_line(shackled(turned).out) is not None
     first = output if output.endswith(".png") else f"{output}/000.png"
-    assert (render(load(first)).pixels == pixels(first)).all()
+    assert (render(load(first)).pixels == pixels_of(first)).all()
     shackled(f"{turned} --no-scene")
     with pytest.raises(InputError, match="carries no scene"):
         load(first)

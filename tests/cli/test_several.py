@@ -1,7 +1,5 @@
 """Several inputs of one command."""
 
-from __future__ import annotations
-
 import json
 import os
 import re

@@ -1,7 +1,5 @@
 """Standard input and standard output."""
 
-from __future__ import annotations
-
 import io
 import json
 import os

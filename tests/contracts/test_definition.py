@@ -1,21 +1,18 @@
 """The definition of the renderer, contracts/picture.py, draws what the contracts draw, to what they approximate."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 from pathlib import Path
 
 import numpy as np
 import pytest
-from PIL import Image as PillowImage
 from tools.docs import draw_rules
 from tools.pages import IMAGES
 
 import picture
 from judge import judge_pixels, render
 from judge.fragments import RULES
-from pictures import call_data, draw
+from pictures import call_data, draw, pixels_of
 from random_scenes import TAME, random_scene
 from shackled import Scene
 from shackled.scene._in_range import in_range
@@ -87,6 +84,5 @@ def test_the_picture_of_a_rule(rule: str) -> None:
     assert drawn.faults == defined.faults == []
     assert drawn.explained[rule] > 0
     assert defined.explained.total() == 0
-    with PillowImage.open(IMAGES / f"rule-{rule}.png") as opened:
-        shown = np.asarray(opened.convert("RGB"))[:: draw_rules.SCALE, :: draw_rules.SCALE]
+    shown = pixels_of(IMAGES / f"rule-{rule}.png")[:: draw_rules.SCALE, :: draw_rules.SCALE]
     assert np.array_equal(shown, draw_rules.draw(rule)), "run python -m tools.docs.draw_rules"

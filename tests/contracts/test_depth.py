@@ -1,7 +1,5 @@
 """What is in front is seen."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from attrs import evolve
@@ -87,10 +85,9 @@ def test_a_face_whose_depths_differ_by_more_than_their_precision() -> None:
         corners = np.rint((far * points - place) * 2)
         corners[0] = 0
         face = Object(soup([np.clip(corners, -(2**23), 2**23 - 1)], RED), place, scale=0.5, material=UNLIT, cull=False)
+        expected = judge.render(call_data("render", unlit_scene([face, plane], camera, size))).pixels
         for objects in ([face, plane], [plane, face]):
-            scene = unlit_scene(objects, camera, size)
-            expected = judge.render(call_data("render", scene)).pixels
-            picture = draw(scene)
+            picture = draw(unlit_scene(objects, camera, size))
             assert (picture == expected).all(), np.argwhere((picture != expected).any(axis=2))
             seen += int((picture == RED).all(axis=2).sum())
     assert seen > 1000

@@ -1,7 +1,5 @@
 """Records of `Scene.extensions`: they say what the scene says, belong to their objects, and name the engines."""
 
-from __future__ import annotations
-
 import shutil
 from pathlib import Path
 from typing import Any
@@ -179,7 +177,7 @@ def corners(surface: Any) -> list[list[tuple[float, ...]]]:
 
 
 def test_objects_far_down_the_scene_cannot_have_records() -> None:
-    scene = Scene([WIRE] * 65536 + [evolve(WIRE, opacity=0.5)])
+    scene = Scene([WIRE] * 65536 + [evolve(WIRE, opacity=0.5)], Camera())
     with pytest.raises(InputError, match="among the first 65,536 of a scene, not number 65,536"):
         extensions(scene)
 

@@ -1,7 +1,5 @@
 """The registers and words of the pipeline are made of one table: none may lie over another."""
 
-from __future__ import annotations
-
 import re
 import tomllib
 from itertools import pairwise

@@ -1,7 +1,5 @@
 """Cleaning and simplifying meshes."""
 
-from __future__ import annotations
-
 import os
 from pathlib import Path
 from typing import Any

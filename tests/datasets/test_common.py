@@ -1,7 +1,5 @@
 """The common objects that need no file."""
 
-from __future__ import annotations
-
 from collections.abc import Callable
 from functools import partial
 

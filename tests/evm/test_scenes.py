@@ -1,14 +1,12 @@
 """Pictures and refusals: the same bytes for the same gas in the EVM of the package, pyrevm, py-evm and a real node."""
 
-from __future__ import annotations
-
 import os
 from collections.abc import Iterator
 from dataclasses import dataclass
 
 import pytest
 
-from evms import REGIONS, Codes, Ours, pyevm_call, pyrevm_call
+from evms import Codes, Ours, pyevm_call, pyrevm_call
 from nodes import anvil, needs_anvil
 from pictures import call_data, words
 from random_scenes import broken_call, random_case
@@ -21,6 +19,7 @@ from shackled.chain._node import NodeChain
 from shackled.datasets import pieces
 from shackled.errors import ChainError
 from shackled.ethereum._encoding import to_hex
+from shackled.evm import _compiled
 from shackled.evm._instance import Answer, Status
 from shackled.gas import search, suffices
 from shackled.scene import encode
@@ -53,12 +52,17 @@ class World:
         assert answer == pyevm_call(self.codes, self.renderer, data, gas)
 
 
-@pytest.fixture(scope="module", params=REGIONS)
-def world(request: pytest.FixtureRequest) -> World:
-    """In the interpreter, compiled in regions of one instruction, and as usual."""
+def world_of(region: int | None, *interpreted: str) -> World:
+    """A world with regions of so many instructions; the names of contracts that are not compiled."""
     chain = RevmChain()
     renderer = chain.address("Renderer")
-    return World(chain, chain.codes(), renderer, Ours(request.param))
+    return World(chain, chain.codes(), renderer, Ours(region, [artifact(name).runtime for name in interpreted]))
+
+
+@pytest.fixture(scope="module", params=[None, _compiled.REGION])
+def world(request: pytest.FixtureRequest) -> World:
+    """In the interpreter, and compiled."""
+    return world_of(request.param)
 
 
 def test_built_in_scenes(world: World) -> None:
@@ -72,6 +76,14 @@ def test_random_scenes(world: World) -> None:
     for seed in range(1, 1 + SEEDS):
         case = random_case(seed)
         world.agree(call_data("renderCounted", case.scene))
+        world.agree(call_data("renderTile", case.scene, case.tile))
+
+
+def test_regions_of_one_instruction() -> None:
+    """Which take long to compile: two engines, between contracts that are interpreted."""
+    world = world_of(1, *{*artifact("Renderer").parts} - {"Engine", "AntialiasedFragmentEngine"})
+    for seed in range(1, 1 + SEEDS):
+        case = random_case(seed)
         world.agree(call_data("renderTile", case.scene, case.tile))
 
 

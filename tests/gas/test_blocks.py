@@ -1,7 +1,5 @@
 """Gas by basic block."""
 
-from __future__ import annotations
-
 import subprocess
 import sys
 from functools import cache

@@ -1,7 +1,5 @@
 """Pictures that are lowered until they fit a request."""
 
-from __future__ import annotations
-
 import pytest
 from attrs import evolve
 

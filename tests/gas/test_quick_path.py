@@ -1,7 +1,5 @@
 """Which faces the contracts light once: told from the scene, judged by the gas of a pixel."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import pytest

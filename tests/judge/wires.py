@@ -1,7 +1,5 @@
 """Wires of plain pictures: in each column, or row of steep lines, the pixel nearest to the line (docs/explain.md)."""
 
-from __future__ import annotations
-
 import numpy as np
 
 from picture import SUBPIXELS, Camera

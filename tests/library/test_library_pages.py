@@ -1,7 +1,5 @@
 """docs/studio.md: its pictures, and the contracts of its examples."""
 
-from __future__ import annotations
-
 import base64
 import re
 from itertools import product
@@ -17,6 +15,7 @@ from tools.docs.draw_library import Shelf
 from tools.pages import IMAGES
 
 from compiler import needs_compiler
+from pictures import pixels_of
 from shackled import render
 from shackled.artifacts import artifact
 from shackled.datasets import pieces
@@ -41,8 +40,7 @@ def objects_of(scene: bytes) -> list[Any]:
 
 
 def test_the_contact_sheet(shelf: Shelf) -> None:
-    with PillowImage.open(IMAGES / "library.png") as opened:
-        sheet = np.asarray(opened.convert("RGB"))
+    sheet = pixels_of(IMAGES / "library.png")
     assert sheet.shape == (-(-len(items()) // COLUMNS) * (SIDE + LABEL), COLUMNS * SIDE, 3)
     for number, item in enumerate(items()):
         if item.name in draw_library.ON_PEDESTALS:

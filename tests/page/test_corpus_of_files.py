@@ -3,8 +3,6 @@
 What may differ is in ACCEPTED, with the reason.
 """
 
-from __future__ import annotations
-
 import json
 import re
 import runpy

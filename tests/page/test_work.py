@@ -1,7 +1,5 @@
 """The workers of the page make the files and figures that Python makes."""
 
-from __future__ import annotations
-
 import base64
 import gzip
 import html
@@ -17,11 +15,10 @@ import pytest
 from attrs import evolve
 from examples import showcase
 from PIL import Image as PillowImage
-from PIL import ImageSequence
 
 import shackled
 from node_scripts import asked, needs_web
-from pictures import chain, local
+from pictures import chain, frames_of, local, pixels_of
 from shackled import Ground, InputError, Light, Material, Mesh, Object, Scene, Texture
 from shackled.artifacts import artifact
 from shackled.ethereum._encoding import to_hex
@@ -145,8 +142,7 @@ def test_pictures_and_stages(answers: Answers, name: str) -> None:
     scene = SCENES[name]
     image = shackled.render(scene, on=chain())
     found = answers.file(f"{name}-png", "png")
-    with PillowImage.open(io.BytesIO(found)) as picture:
-        assert (np.array(picture.convert("RGB")) == image.pixels.repeat(2, axis=0).repeat(2, axis=1)).all()
+    assert (pixels_of(found) == image.pixels.repeat(2, axis=0).repeat(2, axis=1)).all()
     # it has the scene, too
     path = answers.folder / f"{name}.again.png"
     path.write_bytes(found)
@@ -166,16 +162,15 @@ def test_films_and_files_of_contracts(answers: Answers) -> None:
     assert answers.file("apng", "apng") == make_apng(SCENES["edges"], 5, 90, 2).content
     scene = chain().call("Genesis", artifact("Genesis").interface.encode("scene", (7).to_bytes(32, "big"))).output
     assert answers.file("genesis", "call") == artifact("Renderer").selectors["render"] + scene
+    frames = frames_of(answers.file("gif", "gif"))
     with PillowImage.open(io.BytesIO(answers.file("gif", "gif"))) as film:
-        frames = [np.array(each.convert("RGB")) for each in ImageSequence.Iterator(film)]
         assert (film.info["duration"], film.info["loop"], film.size, len(frames)) == (90, 0, (64, 64), 5)
     for found, each in zip(frames, full_turn(SCENES["edges"], 5), strict=True):
         difference = np.abs(found[::2, ::2].astype(int) - shackled.render(each, on=chain()).pixels)
         assert (found == found[::2, ::2].repeat(2, axis=0).repeat(2, axis=1)).all()
         assert np.mean(difference > 24) < 0.02
-    with PillowImage.open(io.BytesIO(answers.file("many", "gif"))) as film:
-        picture = shackled.render(SCENES["teapot"], on=chain()).pixels.astype(int)
-        assert np.abs(np.array(film.convert("RGB")) - picture).max() < 40
+    picture = shackled.render(SCENES["teapot"], on=chain()).pixels.astype(int)
+    assert np.abs(pixels_of(answers.file("many", "gif")) - picture).max() < 40
 
 
 def test_a_page(answers: Answers) -> None:

@@ -1,7 +1,5 @@
 """How a canvas is cut."""
 
-from __future__ import annotations
-
 import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st

@@ -1,7 +1,5 @@
 """Finished parts on the disk."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

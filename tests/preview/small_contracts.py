@@ -1,7 +1,5 @@
 """Contracts of a few instructions, for previews without a compiler."""
 
-from __future__ import annotations
-
 from pathlib import Path
 from typing import Any
 

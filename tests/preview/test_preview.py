@@ -1,7 +1,5 @@
 """The preview of a token contract: compiler, deployment, tokens, and the page that follows the sources."""
 
-from __future__ import annotations
-
 import base64
 import io
 import json
@@ -241,7 +239,8 @@ def uri(document: Any) -> str:
 def film(kind: str = "png", frames: int = 1, side: int = 4) -> bytes:
     """Return a picture, which moves if it has several frames."""
     stream = io.BytesIO()
-    made = [PillowImage.new("RGB", (side, side), (25 * number, 9, 9)) for number in range(frames)]
+    # greys, of which no palette has to be found
+    made = [PillowImage.new("L", (side, side), 25 * number) for number in range(frames)]
     made[0].save(stream, kind, save_all=frames > 1, append_images=made[1:])
     return stream.getvalue()
 

@@ -1,7 +1,5 @@
 """The codec: scenes as calldata, against an outside decoder."""
 
-from __future__ import annotations
-
 import struct
 from typing import Any
 

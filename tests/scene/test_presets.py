@@ -1,7 +1,5 @@
 """Looks by name."""
 
-from __future__ import annotations
-
 from itertools import combinations
 
 import numpy as np

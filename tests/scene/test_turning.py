@@ -1,7 +1,5 @@
 """Scenes turned about their middle."""
 
-from __future__ import annotations
-
 import numpy as np
 import pytest
 from attrs import evolve

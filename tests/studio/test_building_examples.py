@@ -1,7 +1,5 @@
 """The scenes of docs/building.md."""
 
-from __future__ import annotations
-
 import re
 from pathlib import Path
 

@@ -1,7 +1,5 @@
 """PNG files: the contract against its model, byte for byte, and both against Pillow."""
 
-from __future__ import annotations
-
 import base64
 import io
 from pathlib import Path

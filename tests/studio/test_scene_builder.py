@@ -1,7 +1,5 @@
 """The library with which contracts build scenes."""
 
-from __future__ import annotations
-
 import math
 from typing import Any
 

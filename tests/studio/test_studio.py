@@ -1,7 +1,5 @@
 """Meshes and scenes are kept once, for everybody, and drawn as what they were."""
 
-from __future__ import annotations
-
 import base64
 import re
 from collections.abc import Callable
@@ -15,6 +13,7 @@ from eth_abi.abi import decode
 from numpy.typing import NDArray
 from tools.ledger import World, call_data
 
+from pictures import frames_of
 from shackled import Background, Camera, ChainError, Light, Material, Mesh, Object, RenderError, Scene, Texture, render
 from shackled.artifacts import artifact
 from shackled.datasets import teapot
@@ -22,7 +21,7 @@ from shackled.ethereum._encoding import word
 from shackled.image import decode_bmp
 from shackled.scene._arithmetic import from_euler
 from shackled.scene._fields import Shading
-from stored_scenes import CHANGES, SCENE_STRUCT, changes, frames_of, kept, stored, struct_of, turned
+from stored_scenes import CHANGES, SCENE_STRUCT, changes, kept, stored, struct_of, turned
 
 POT = Mesh(np.round(np.asarray(teapot(3).positions) * 100), teapot(3).faces)
 TENT = Mesh([[-90, 0, 0], [90, 0, 0], [0, 150, 0]], [[0, 1, 2]], [[255, 0, 0], [0, 255, 0], [0, 0, 255]])

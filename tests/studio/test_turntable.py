@@ -1,7 +1,5 @@
 """Animated PNG files: the contract against a model, byte for byte, and both against Pillow."""
 
-from __future__ import annotations
-
 import base64
 import io
 import struct
@@ -16,6 +14,7 @@ from PIL import Image as PillowImage
 from tools.ledger import World, call_data
 from tools.png_code import SIGNATURE, encode_png
 
+from pictures import frames_of
 from shackled import Background, Camera, Light, Material, Mesh, Object, RenderError, Scene, render
 from shackled.artifacts import artifact
 from shackled.chain import open_chain
@@ -25,7 +24,7 @@ from shackled.scene._arithmetic import from_euler
 from shackled.scene._codec import encode_scene
 from shackled.scene._in_range import in_range
 from shackled.scene._packed import pack
-from stored_scenes import CHANGES, SCENE_STRUCT, Pixels, changes, frames_of, stored, turned
+from stored_scenes import CHANGES, SCENE_STRUCT, Pixels, changes, stored, turned
 
 SPIN = "(uint256,uint256,uint256,(int256,int256,int256),bool)"
 ONE = 1 << 32

@@ -1,7 +1,5 @@
 """The Solidity compiler, without which some tests are skipped."""
 
-from __future__ import annotations
-
 from pathlib import Path
 
 import pytest

@@ -3,9 +3,8 @@
 Names of failures are left out: they differ between versions of revm.
 """
 
-from __future__ import annotations
-
-from collections.abc import Callable
+from collections.abc import Callable, Collection
+from functools import cache
 from typing import Any
 
 import pytest
@@ -15,6 +14,7 @@ from shackled.chain._embedded import SENDER, PyEvmChain
 from shackled.ethereum._encoding import intrinsic_gas, to_hex
 from shackled.evm import _compiled
 from shackled.evm._instance import Answer, Instance, Status
+from shackled.evm._module import Kind, config
 
 #: Where code under test is put.
 ADDRESS = bytes(18) + b"\xc0\xde"
@@ -43,28 +43,39 @@ def _once(
 
 
 class Ours:
-    """The EVM of the package, one instance for all calls. region: of compiled code; None for the interpreter."""
+    """The EVM of the package, one instance for all calls. region: of compiled code; None for the interpreter.
 
-    def __init__(self, region: int | None = None) -> None:
+    interpreted: codes that are not compiled.
+    """
+
+    def __init__(self, region: int | None = None, interpreted: Collection[bytes] = ()) -> None:
         with pytest.MonkeyPatch.context() as patch:
             patch.setenv("SHACKLED_EVM", "interpreter")
             self.instance = Instance()
         self.region = region
-        self._compiled: set[bytes] = set()
+        self._done: set[bytes] = {b"", *interpreted}
 
     def put(self, address: bytes, code: bytes) -> None:
         """Set the code of a contract, and compile it."""
         self.instance.put(address, code)
-        if self.region is not None and code and code not in self._compiled:
-            translated = self.instance.translate(code, self.region)
-            assert self.instance._link(address, wasmtime.Module(self.instance._engine, translated))
-            self._compiled.add(code)
+        if self.region is not None and code not in self._done:
+            module = wasmtime.Module(_compiler(self.instance._kind), self.instance.translate(code, self.region))
+            assert self.instance._link(address, wasmtime.Module.deserialize(self.instance._engine, module.serialize()))
+            self._done.add(code)
 
     def call(self, codes: Codes, address: bytes, data: bytes, gas: int) -> Answer:
         for each, code in codes.items():
             self.put(each, code)
         answer = self.instance.call(address, data, gas)
         return answer._replace(output=b"") if answer.status == Status.FAILURE else answer
+
+
+@cache
+def _compiler(kind: Kind) -> wasmtime.Engine:
+    """What compiles programs in one thread, as fast as it can: most of them are run a few times."""
+    settings = config(kind)
+    settings.parallel_compilation, settings.cranelift_opt_level = False, "none"
+    return wasmtime.Engine(settings)
 
 
 def pyrevm_call(

@@ -1,7 +1,5 @@
 """Scenes that several tests draw."""
 
-from __future__ import annotations
-
 import numpy as np
 from attrs import evolve
 

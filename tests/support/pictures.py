@@ -1,13 +1,15 @@
 """What the tests ask of the contracts, and the scenes that they share."""
 
-from __future__ import annotations
-
+import io
 from functools import cache
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 from attrs import evolve
 from numpy.typing import ArrayLike, NDArray
+from PIL import Image as PillowImage
+from PIL import ImageSequence
 
 from shackled import Camera, Material, Mesh, Object, Scene
 from shackled.artifacts import artifact
@@ -93,6 +95,17 @@ def covered(scene: Scene) -> NDArray[np.bool_]:
         for o in scene.objects
     ]
     return draw(evolve(scene, objects=white))[:, :, 0] > 0
+
+
+def frames_of(file: bytes | str | Path) -> list[Pixels]:
+    """The pictures of a file, or of its content, which may be animated."""
+    with PillowImage.open(io.BytesIO(file) if isinstance(file, bytes) else file) as opened:
+        return [np.array(frame.convert("RGB")) for frame in ImageSequence.Iterator(opened)]
+
+
+def pixels_of(file: bytes | str | Path) -> Pixels:
+    """The first of them, or the only one."""
+    return frames_of(file)[0]
 
 
 def recolored(mesh: Mesh, color: ArrayLike) -> Mesh:

@@ -1,16 +1,11 @@
 """Scenes in the Studio of a `World`: stored, drawn with changes, and turned as it turns them."""
 
-from __future__ import annotations
-
-import io
 from typing import Any
 
 import numpy as np
 from attrs import evolve
 from eth_abi.abi import decode
 from numpy.typing import NDArray
-from PIL import Image as PillowImage
-from PIL import ImageSequence
 from tools.ledger import World, call_data
 
 from shackled import Scene
@@ -45,12 +40,6 @@ def struct_of(world: World, pointer: str) -> Any:
 def changes(**changed: object) -> tuple[object, ...]:
     """The struct Changes."""
     return tuple((NO_CHANGES | changed).values())
-
-
-def frames_of(png: bytes) -> list[Pixels]:
-    """The pictures of a PNG file, which may be animated."""
-    with PillowImage.open(io.BytesIO(png)) as file:
-        return [np.array(frame.convert("RGB")) for frame in ImageSequence.Iterator(file)]
 
 
 def turned(scene: Scene, quaternion: NDArray[np.float64]) -> Scene:

@@ -1,7 +1,5 @@
 """Checks of a compiled contract: which memory its instructions may write, by a decoder of our own."""
 
-from __future__ import annotations
-
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any
@@ -16,6 +14,13 @@ IMPORTED = ["grow", "copy", "calculate", "memory"]
 #: Functions before the regions: helpers, and `run`.
 HELPERS = 11
 WIDTHS = {0x36: 4, 0x37: 8, 0x3A: 1, 0x3C: 1}
+#: Instructions of one operand.
+UNARY = {0x45, 0x50, 0xA7, 0xAD, 0xFD00, 0xFD12, 0xFD1D, *range(0x28, 0x36)}
+#: Those that are followed by a number, and by two.
+ONE, TWO = (
+    {0x02, 0x03, 0x04, 0x0C, 0x0D, 0x10, 0x12, 0x20, 0x21, 0x22},
+    {0x11, 0x13, *range(0x28, 0x3F), 0xFD00, 0xFD0B},
+)
 
 
 class Reader:
@@ -73,9 +78,9 @@ def instructions(reader: Reader) -> Iterator[tuple[int, list[int]]]:
         more: list[int] = []
         if code == 0xFD:
             code = 0xFD00 + reader.number()
-        if code in (0x02, 0x03, 0x04, 0x0C, 0x0D, 0x10, 0x12, 0x20, 0x21, 0x22):
+        if code in ONE:
             more = [reader.number()]
-        elif code in (0x11, 0x13) or 0x28 <= code <= 0x3E or code in (0xFD00, 0xFD0B):
+        elif code in TWO:
             more = [reader.number(), reader.number()]
         elif code in (0x41, 0x42):
             more = [reader.number(signed=True)]
@@ -189,14 +194,13 @@ class Function:
 
     def other(self, code: int, more: list[int]) -> None:
         """Follow an instruction that calculates."""
-        unary = {0x45, 0x50, 0xA7, 0xAD, 0xFD12, 0xFD1D} | set(range(0x28, 0x36)) | {0xFD00}
         if code in (0x42, 0xFD0C):
             self.values.append(None)
             return
         if code in (0x12, 0x13, 0x0D):
             return
         last = self.pop()
-        if code in unary:
+        if code in UNARY:
             self.values.append(("field", more[1]) if code == 0x28 and last == ("local", STATE) else None)
             return
         first = self.pop()

@@ -1,7 +1,5 @@
 """A Genesis collection with one token: what its owner says, what goes wrong, and what is found out."""
 
-from __future__ import annotations
-
 import json
 import re
 from pathlib import Path
@@ -12,6 +10,7 @@ from web3 import Web3
 
 from commands import Shackled
 from nodes import Node, Reply, failure, replying, serving
+from pictures import pixels_of
 from shackled.artifacts import artifact
 from shackled.chain import Connection
 from shackled.chain._address_book import AddressBook
@@ -23,7 +22,6 @@ from shackled.tokens._allow_list import read_allow_list
 from shackled.tokens._contract import Contract
 from shackled.tokens._launch import immutable_places
 from shackled.tokens._verify import check_collection_code, check_token
-from stored_scenes import frames_of
 
 OWNER, ALICE, BOB = range(3)
 PRICE = 2 * 10**17
@@ -217,5 +215,5 @@ def test_a_picture_file_may_be_of_another_kind(address: str, tmp_path: Path, sha
     files = tmp_path / "a.png", tmp_path / "a.bmp"
     for each in files:
         shackled("token", "show", 0, "-o", each)
-    one, other = (frames_of(each.read_bytes())[0] for each in files)
+    one, other = (pixels_of(each) for each in files)
     np.testing.assert_array_equal(one, other)

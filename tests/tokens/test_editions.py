@@ -1,7 +1,5 @@
 """The collection to which anybody adds scenes."""
 
-from __future__ import annotations
-
 from dataclasses import dataclass
 from functools import cache
 from typing import Any

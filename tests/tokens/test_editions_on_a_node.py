@@ -1,7 +1,5 @@
 """Editions by the command line, from the deployment to the withdrawal, seen by web3.py; and nodes that lie."""
 
-from __future__ import annotations
-
 import json
 import re
 from dataclasses import replace

@@ -1,7 +1,5 @@
 """Events in receipts, also in those of nodes that lie."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import pytest

@@ -1,7 +1,5 @@
 """The Genesis collection from its deployment to its last token, by the command line, seen by web3.py."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 
@@ -11,11 +9,11 @@ from web3.exceptions import ContractCustomError
 
 from commands import Shackled
 from nodes import Node
+from pictures import frames_of
 from shackled.datasets.genesis import generate_on_chain, picture_on_chain
 from shackled.ethereum._encoding import intrinsic_gas
 from shackled.tokens._launch import parts_of
 from shackled.tokens._metadata import read_data_uri
-from stored_scenes import frames_of
 from token_checks import document
 
 OWNER, ALICE, BOB, CAROL = range(4)
@@ -83,7 +81,7 @@ def test_the_whole_way_of_tokens(
     seed = contract.functions.seedOf(4).call()
     piece, _ = generate_on_chain(seed)
     assert f"structure       {piece.structure}" in said.out
-    (shown,) = frames_of(picture.read_bytes())
+    (shown,) = frames_of(picture)
     assert shown.shape == (512, 512, 3)
     np.testing.assert_array_equal(shown[::4, ::4], picture_on_chain(piece).pixels)
     uri = contract.functions.tokenURI(4).call()

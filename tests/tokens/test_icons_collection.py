@@ -1,7 +1,5 @@
 """The collection of scenes that are kept on chain."""
 
-from __future__ import annotations
-
 import base64
 import io
 
@@ -17,9 +15,9 @@ from tools.tokens.merkle import leaf
 from tools.tokens.world import ETHER, ZERO, Contract, Refused
 
 from adversaries import adversary
+from pictures import frames_of
 from shackled import render
 from shackled.image import decode_bmp
-from stored_scenes import frames_of
 from token_checks import INDEPENDENT, document, pixels, refused, traits
 
 PRICES = [price for _, _, _, price in ICONS.values()]

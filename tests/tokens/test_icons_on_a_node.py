@@ -1,7 +1,5 @@
 """A collection of icons from its deployment to its last token, by the command line, seen by web3.py."""
 
-from __future__ import annotations
-
 import json
 from pathlib import Path
 
@@ -10,6 +8,7 @@ import pytest
 
 from commands import Shackled
 from nodes import Node
+from pictures import pixels_of
 from shackled import render
 from shackled.chain._address_book import AddressBook
 from shackled.cli.app import run
@@ -18,7 +17,6 @@ from shackled.ethereum._encoding import checksum_address
 from shackled.tokens._icons import token_scene
 from shackled.tokens._launch import parts_of
 from shackled.tokens._metadata import read_data_uri
-from stored_scenes import frames_of
 from token_checks import document
 
 OWNER, ALICE, BOB = range(3)
@@ -83,7 +81,7 @@ def test_the_whole_way_of_icons(node: Node, address: str, tmp_path: Path, shackl
     shown = json.loads(shackled("token", "show", 2, "-c", "icons", "-o", heart, "--json").out)
     assert shown["traits"] == {"Icon": "Heart", "Supply": 3}
     drawn = render(token_scene(require("icons/heart")))
-    np.testing.assert_array_equal(frames_of(heart.read_bytes())[0][::4, ::4], drawn.pixels)
+    np.testing.assert_array_equal(pixels_of(heart)[::4, ::4], drawn.pixels)
     found = document(contract.functions.tokenURI(2).call())
     assert read_data_uri(found["image"], "it") == ("image/png", heart.read_bytes())
     listed = json.loads(shackled("token", "list", "-c", "icons", "--json").out)

@@ -1,7 +1,5 @@
 """Seeds: nobody chooses them, and they never change."""
 
-from __future__ import annotations
-
 import random
 
 import pytest

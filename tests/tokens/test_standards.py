@@ -1,7 +1,5 @@
 """The standards that the collections claim."""
 
-from __future__ import annotations
-
 from typing import Any
 
 import pytest

@@ -1,7 +1,5 @@
 """Objects that are put on chain, by the command line, seen by web3.py."""
 
-from __future__ import annotations
-
 import base64
 import json
 from pathlib import Path
@@ -12,11 +10,11 @@ from PIL import Image as PillowImage
 
 from commands import Shackled
 from nodes import Node
+from pictures import frames_of, pixels_of
 from shackled import load, render
 from shackled.cli.app import run
 from shackled.datasets._pieces import require
 from shackled.tokens._icons import token_scene
-from stored_scenes import frames_of
 
 OWNER, ALICE, BOB = range(3)
 TRIANGLE = "v 0 1 0\nv -1 -1 0\nv 1 -1 0\nf 1 2 3\n"
@@ -52,7 +50,7 @@ def test_an_object_is_put_on_chain_once(node: Node, tmp_path: Path, shackled: Sh
     stored = json.loads(said.out)
     assert "storing it:" in said.err
     assert 0 < stored["gas"] <= 1_700_000
-    np.testing.assert_array_equal(frames_of(picture.read_bytes())[0], render(token_scene(require("icons/bell"))).pixels)
+    np.testing.assert_array_equal(pixels_of(picture), render(token_scene(require("icons/bell"))).pixels)
     # web3.py finds the same there
     studio = node.contract("Studio", stored["studio"])
     (draw,) = (f for f in studio.all_functions() if f.abi_element_identifier == "render(address)")
@@ -63,7 +61,7 @@ def test_an_object_is_put_on_chain_once(node: Node, tmp_path: Path, shackled: Sh
     assert "nothing was sent" in said.err
     large = tmp_path / "large.png"
     assert "bytes" in shackled("token", "picture", stored["pointer"], "-o", large, "--scale", 2).out
-    assert frames_of(large.read_bytes())[0].shape == (256, 256, 3)
+    assert pixels_of(large).shape == (256, 256, 3)
     vector, model, film = tmp_path / "bell.svg", tmp_path / "bell.glb", tmp_path / "film.png"
     shackled("token", "picture", stored["pointer"], "-o", vector, "--scale", 2)
     assert base64.b64encode(large.read_bytes()) in vector.read_bytes()
@@ -73,9 +71,9 @@ def test_an_object_is_put_on_chain_once(node: Node, tmp_path: Path, shackled: Sh
     shackled("token", "picture", stored["pointer"], "-o", film, "--size", 16, *turned)
     with PillowImage.open(film) as opened:
         assert (opened.size, opened.info["duration"]) == ((16, 16), 40)
-        assert len(frames_of(film.read_bytes())) == 3
+        assert len(frames_of(film)) == 3
     shackled("token", "picture", stored["pointer"], "-o", film, *turned)
-    assert frames_of(film.read_bytes())[0].shape == (128, 128, 3)
+    assert pixels_of(film).shape == (128, 128, 3)
     for options in (["-o", vector, "--turntable", 3], ["-o", large, "--size", 8]):
         shackled("token", "picture", stored["pointer"], *options, expect=2)
     said = shackled("token", "picture", "0x" + "12" * 20, "-o", large, expect=1)
@@ -89,7 +87,7 @@ def test_a_file_is_put_on_chain_with_its_licence(tmp_path: Path, shackled: Shack
     said = shackled("store", mesh, "--licence", "CC BY-NC 4.0", "--yes", user=ALICE, expect=2)
     assert "is not known to allow commercial use" in said.error
     shackled("store", mesh, "--licence", "my own work", "--size", "40x20", "-o", picture, "--yes", user=ALICE)
-    np.testing.assert_array_equal(frames_of(picture.read_bytes())[0], render(mesh, (40, 20), antialias=False).pixels)
+    np.testing.assert_array_equal(pixels_of(picture), render(mesh, (40, 20), antialias=False).pixels)
 
 
 def test_what_one_contract_cannot_hold_is_kept_in_parts(tmp_path: Path, shackled: Shackled) -> None:
@@ -105,7 +103,7 @@ def test_what_one_contract_cannot_hold_is_kept_in_parts(tmp_path: Path, shackled
     said = shackled("store", mesh, "--licence", "MIT", "--size", 48, "-o", picture, "--yes", user=ALICE)
     assert "mesh 1, part 2 of" in said.err
     assert "mesh 1, joined" in said.err
-    np.testing.assert_array_equal(frames_of(picture.read_bytes())[0], render(load(mesh, antialias=False), 48).pixels)
+    np.testing.assert_array_equal(pixels_of(picture), render(load(mesh, antialias=False), 48).pixels)
 
 
 @pytest.mark.parametrize(

@@ -1,7 +1,5 @@
 """Exported pages, opened from disk in chromium and Firefox."""
 
-from __future__ import annotations
-
 import base64
 import json
 import re

@@ -1,7 +1,5 @@
 """The custom element <shackled-view>, in chromium, on a page opened from disk."""
 
-from __future__ import annotations
-
 import base64
 import time
 from collections.abc import Callable, Iterator
@@ -128,7 +126,7 @@ def show(browser: Any, tmp_path: Path) -> Iterator[Opener]:
 def test_the_picture_is_that_of_python(show: Opener) -> None:
     view = show()
     for name in ("teapot", "icons/crown", "genesis/0"):
-        drawn = load(name)
+        drawn = load(name, size=80)
         image = render(drawn)
         details = view.after(view.dropped(render_call(drawn)))
         assert details["sha256"] == image.sha256

@@ -1,7 +1,5 @@
 """`render` of the TypeScript package gives the bytes, the gas and the errors of Python."""
 
-from __future__ import annotations
-
 import hashlib
 import random
 from pathlib import Path
@@ -59,8 +57,8 @@ def test_gas_by_stage(tmp_path: Path) -> None:
         {"smooth": True},
         {"exposure": 1.2, "gamma": True, "shadow": True, "ground": "gray"},
     )
-    scenes = [load("icons/crown", size=(64, 48), **look) for look in looks]
-    scenes += [load(name, size=(64, 48)) for name in NAMES]
+    scenes = [load("icons/crown", size=(32, 24), **look) for look in looks]
+    scenes += [load(name, size=(32, 24)) for name in NAMES]
     found = drawn_by_node([render_call(scene) for scene in scenes], tmp_path, "profile")
     assert [each["stages"] for each in found] == [profile(scene).stages() for scene in scenes]
     assert len({tuple(stage for stage, gas in each["stages"].items() if gas) for each in found}) > 2

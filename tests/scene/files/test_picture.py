@@ -1,7 +1,5 @@
 """Scenes in PNG files."""
 
-from __future__ import annotations
-
 import tracemalloc
 import zlib
 from pathlib import Path
