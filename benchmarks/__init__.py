@@ -1,5 +1,7 @@
 """Measure what pictures cost in gas: the snapshot of the tests, and the tables of `python -m benchmarks`."""
 
+from __future__ import annotations
+
 import argparse
 import json
 import sys

@@ -1,5 +1,7 @@
 """`python -m benchmarks`: print all tables and write them to results.md and results.json."""
 
+from __future__ import annotations
+
 from . import FOLDER, cost, measured, run_main, stages, write_figures
 
 RESULTS, FIGURES = FOLDER / "results.md", FOLDER / "results.json"

@@ -5,6 +5,8 @@
 measures pictures with and without it, rewrites the table of docs/measurements.md, and prints it.
 """
 
+from __future__ import annotations
+
 from collections.abc import Iterable
 from statistics import fmean
 

@@ -7,6 +7,8 @@ The code of contracts, the data of calls, the hashes of their outputs.
 writes the files of benchmarks/client.
 """
 
+from __future__ import annotations
+
 import hashlib
 import json
 from pathlib import Path

@@ -1,5 +1,7 @@
 """Compare the cost of the original's scenes with the original and with the limits set for this renderer."""
 
+from __future__ import annotations
+
 from collections.abc import Iterable
 from dataclasses import dataclass
 from statistics import fmean, median

@@ -4,6 +4,8 @@ Under proof of stake a network draws the same power whether its blocks are full 
 thus a share: its part of the gas of a year, of the electricity of that year. A read call runs on one computer.
 """
 
+from __future__ import annotations
+
 from collections.abc import Mapping
 from dataclasses import dataclass
 from math import floor, log10

@@ -6,6 +6,8 @@ writes benchmarks/evms.md: speeds of each EVM over nine pictures, interpreted an
 and chromium, and the time of commands in a new process. EVMs that are not installed are left out.
 """
 
+from __future__ import annotations
+
 import base64
 import json
 import os

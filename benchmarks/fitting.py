@@ -7,6 +7,8 @@ size again, with them, rewrites the tables of docs/measurements.md, and prints t
 steps of `shackled.gas.fit_scene` follow from it.
 """
 
+from __future__ import annotations
+
 from collections.abc import Iterable
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass

@@ -7,6 +7,8 @@ tools/models.toml, which it downloads into build/models, and rewrites gas_model.
 benchmarks/README.md. A model that does not fit one picture, such as one with more than MOST triangles, is left out.
 """
 
+from __future__ import annotations
+
 import warnings
 from collections.abc import Iterable, Iterator
 from functools import partial

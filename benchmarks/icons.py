@@ -6,6 +6,8 @@ measures everything, rewrites icons.json, the table of docs/datasets.md, and the
 antialiased: src/shackled/tokens/antialiased.json.
 """
 
+from __future__ import annotations
+
 from functools import partial
 from pathlib import Path
 

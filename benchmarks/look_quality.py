@@ -7,6 +7,8 @@ leaves one part of the look out; its FLIP, a perceptual difference, is compared 
 so much smaller that it needs the same gas. Rewrites look_quality.json and its table in benchmarks/README.md.
 """
 
+from __future__ import annotations
+
 import sys
 from collections.abc import Callable
 from functools import partial

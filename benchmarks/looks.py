@@ -6,6 +6,8 @@ measures everything, which takes about two minutes, rewrites looks.json and the 
 docs/parallel.md, and prints the first. Figures of meshes and scenes that are not there are kept.
 """
 
+from __future__ import annotations
+
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import partial

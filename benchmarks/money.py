@@ -10,6 +10,8 @@ the gas of its execution there, and its share of a blob of mainnet: its bytes, c
 byte.
 """
 
+from __future__ import annotations
+
 import argparse
 import zlib
 from dataclasses import asdict, dataclass, fields

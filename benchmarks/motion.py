@@ -5,6 +5,8 @@
 measures everything, rewrites motion.json and the table of docs/motion.md, and prints it.
 """
 
+from __future__ import annotations
+
 from functools import partial
 from pathlib import Path
 

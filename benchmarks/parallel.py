@@ -4,6 +4,8 @@ Written to parallel.md and parallel.json beside this file. Gas is exact; times a
 only their ratios are meaningful.
 """
 
+from __future__ import annotations
+
 import os
 import sys
 import time

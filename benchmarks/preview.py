@@ -6,6 +6,8 @@ makes the project of docs/token-tutorial.md, starts its preview, saves another v
 seconds until the first 16 tokens and until all 256 are there. Needs Node and the compiler: npm ci in contracts/.
 """
 
+from __future__ import annotations
+
 import tempfile
 import time
 from collections.abc import Iterator

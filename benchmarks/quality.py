@@ -6,6 +6,8 @@ draws everything, which takes about three minutes, rewrites quality.json and the
 prints it. It needs OpenGL (`python3 tools/prepare.py opengl`). The figures of meshes that are not there are kept.
 """
 
+from __future__ import annotations
+
 import sys
 from collections.abc import Iterator
 from concurrent.futures import ProcessPoolExecutor

@@ -7,6 +7,8 @@ which draws meshes of them, and rewrites ray_marcher.json and its table in bench
 contracts/.
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path

@@ -1,5 +1,7 @@
 """Make scenes that need no file."""
 
+from __future__ import annotations
+
 from typing import Unpack
 
 from shackled import Camera, Light, Material, Object, Scene

@@ -6,6 +6,8 @@
 Seed number N is keccak256("random-N").
 """
 
+from __future__ import annotations
+
 import argparse
 from collections.abc import Sequence
 from statistics import fmean, median

@@ -5,6 +5,8 @@
 measures pictures on a ground, without and with shadows, rewrites the table of docs/light.md, and prints it.
 """
 
+from __future__ import annotations
+
 from statistics import fmean
 
 from attrs import evolve

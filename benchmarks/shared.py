@@ -6,6 +6,8 @@ cubes and a square, as JSON files in the format of the original. SHACKLED_SHARED
 missing.
 """
 
+from __future__ import annotations
+
 import os
 from collections.abc import Callable
 from contextlib import suppress

@@ -5,6 +5,8 @@
 measures everything and rewrites gas.json; what changed is printed. The figures of scenes that are not there are kept.
 """
 
+from __future__ import annotations
+
 from functools import partial
 from pathlib import Path
 

@@ -5,6 +5,8 @@
 As `shackled gas` profiles it, beside the least that each stage could need.
 """
 
+from __future__ import annotations
+
 import argparse
 
 from shackled import Scene, load

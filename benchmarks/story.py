@@ -4,6 +4,8 @@ python -m benchmarks.story            writes between the marks <!-- begin NAME -
 python -m benchmarks.story --check    writes nothing; fails if they are not up to date
 """
 
+from __future__ import annotations
+
 import argparse
 import csv
 from statistics import fmean

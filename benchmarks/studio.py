@@ -5,6 +5,8 @@
 measures everything, rewrites studio.json and the tables of docs/studio.md, and prints what changed.
 """
 
+from __future__ import annotations
+
 from functools import partial
 from pathlib import Path
 

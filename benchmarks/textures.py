@@ -4,6 +4,8 @@ python -m benchmarks.textures                measures, and rewrites the tables o
 python -m benchmarks.textures --models DIR   fetches BoxTextured and Duck, and draws them into a folder
 """
 
+from __future__ import annotations
+
 import argparse
 from pathlib import Path
 

@@ -5,6 +5,8 @@
 measures everything, rewrites tokens.json and the table of docs/tokens.md, and prints it.
 """
 
+from __future__ import annotations
+
 import statistics
 from functools import partial
 from pathlib import Path

@@ -5,6 +5,8 @@ pixels, rows of triangles and triangles cost more than a fixed part is the solut
 counted with its half a vertex; a second light for each triangle, with all its rows and pixels.
 """
 
+from __future__ import annotations
+
 import numpy as np
 from attrs import evolve
 

@@ -11,6 +11,8 @@ a second and their size while the first picture, and the teapot, are dragged. --
 "after"; "before" has the figures of the page that had a server of its own.
 """
 
+from __future__ import annotations
+
 import argparse
 import base64
 import gzip

@@ -1,5 +1,7 @@
 """Count the work of a scene: triangles and covered pixels by the contract, their rows and pixels in float64."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 import numpy as np

@@ -1,5 +1,7 @@
 """Settings of all tests."""
 
+from __future__ import annotations
+
 import os
 from collections.abc import Iterator
 from pathlib import Path
@@ -10,6 +12,8 @@ from hypothesis import HealthCheck, settings
 from tools.page_server import browser_path, chromium
 
 from nodes import ANVIL, PUBLIC, Node, anvil
+from pictures import chain
+from shackled.chain._opening import _opened
 
 # The same examples each time, so that a change fails for what it changed; `make fuzz` looks for new ones.
 # A busy machine is not a fault of a test.
@@ -110,6 +114,18 @@ def node(running_node: Node) -> Iterator[Node]:
     before = running_node.rpc("evm_snapshot")
     yield running_node
     running_node.rpc("evm_revert", before)
+
+
+@pytest.fixture(scope="module", params=["interpreter", "compiled"])
+def each_evm(request: pytest.FixtureRequest) -> Iterator[None]:
+    """The embedded EVM, whose contracts all run in the interpreter; then one whose contracts are all compiled."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("SHACKLED_EVM", request.param)
+        for known in (_opened, chain):
+            known.cache_clear()
+        yield
+    for known in (_opened, chain):
+        known.cache_clear()
 
 
 @pytest.fixture(scope="module")

@@ -1,5 +1,7 @@
 """Animations as files."""
 
+from __future__ import annotations
+
 import io
 import re
 from pathlib import Path

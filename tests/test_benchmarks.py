@@ -1,5 +1,7 @@
 """What the benchmarks claim: gas grows with triangles and pixels in a straight line; stages add up to the whole."""
 
+from __future__ import annotations
+
 import csv
 import hashlib
 import json

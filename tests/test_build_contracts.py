@@ -1,5 +1,7 @@
 """The tool that compiles the contracts."""
 
+from __future__ import annotations
+
 import builtins
 import json
 import re

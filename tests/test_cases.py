@@ -1,5 +1,7 @@
 """Files as people have them: cases.toml says what becomes of each."""
 
+from __future__ import annotations
+
 import re
 import shlex
 import tomllib

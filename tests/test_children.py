@@ -1,5 +1,7 @@
 """Processes that tests start: they react to Ctrl-C and are ended, whatever happens."""
 
+from __future__ import annotations
+
 import os
 import signal
 import sys

@@ -1,5 +1,7 @@
 """The commands that `make release-check` takes out of README and docs, and the page that an install builds."""
 
+from __future__ import annotations
+
 import os
 import shutil
 import subprocess

@@ -1,5 +1,7 @@
 """The Python code and the commands of the documentation, and the short programs."""
 
+from __future__ import annotations
+
 import ast
 import json
 import re

@@ -1,5 +1,7 @@
 """Shares of a year, computed by hand."""
 
+from __future__ import annotations
+
 from benchmarks.energy import CCAF_2023, CCRI_2022, estimates
 
 

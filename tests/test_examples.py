@@ -1,5 +1,7 @@
 """The examples do what they say."""
 
+from __future__ import annotations
+
 import base64
 import hashlib
 import io

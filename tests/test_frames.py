@@ -1,5 +1,7 @@
 """The frames of animations of glTF files."""
 
+from __future__ import annotations
+
 from pathlib import Path
 from typing import Any
 

@@ -1,5 +1,7 @@
 """The files that are made of tables are up to date."""
 
+from __future__ import annotations
+
 import pytest
 from tools.generated import MAKERS, ROOT, stale
 

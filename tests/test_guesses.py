@@ -1,5 +1,7 @@
 """What people write who know other libraries, not the documentation: it works, or an error says what does."""
 
+from __future__ import annotations
+
 import io
 import traceback
 from collections.abc import Callable

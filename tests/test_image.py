@@ -1,5 +1,7 @@
 """Pictures as files."""
 
+from __future__ import annotations
+
 import io
 import pickle
 import re

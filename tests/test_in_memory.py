@@ -1,5 +1,7 @@
 """What is handed in without a file of its own: bytes, open files, pipes, and meshes of other libraries."""
 
+from __future__ import annotations
+
 import gzip
 import io
 import os

@@ -1,5 +1,7 @@
 """Everything that can be handed in to `load` and `render`, and what can be set of its look."""
 
+from __future__ import annotations
+
 import re
 import sys
 from itertools import pairwise

@@ -1,5 +1,7 @@
 """The server of pages for the browser of the user."""
 
+from __future__ import annotations
+
 import http.client
 from collections.abc import Iterator
 from contextlib import closing

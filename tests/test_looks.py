@@ -1,5 +1,7 @@
 """The table of what people render, the table of `--fit`, and the unit costs: their logic, and that pages have them."""
 
+from __future__ import annotations
+
 import numpy as np
 import pytest
 from attrs import evolve

@@ -1,5 +1,7 @@
 """What tools/models.py unpacks of packages, and what stands in docs/conformance.md."""
 
+from __future__ import annotations
+
 import io
 import re
 import tarfile

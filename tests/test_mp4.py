@@ -1,5 +1,7 @@
 """MP4 files, as a decoder reads them."""
 
+from __future__ import annotations
+
 import io
 from fractions import Fraction
 from pathlib import Path

@@ -3,6 +3,8 @@
 Needs anvil, which `npm ci` in contracts/ installs on Linux (x86-64); elsewhere one on the path is taken.
 """
 
+from __future__ import annotations
+
 import base64
 from collections.abc import Iterator
 from typing import Any

@@ -1,5 +1,7 @@
 """What the package says of itself: what it needs, where, and whose code is in it."""
 
+from __future__ import annotations
+
 import ast
 import json
 import re

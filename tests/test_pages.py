@@ -1,5 +1,7 @@
 """Figures are written between the marks of a page, and nowhere else."""
 
+from __future__ import annotations
+
 from pathlib import Path
 
 import pytest

@@ -1,5 +1,7 @@
 """The set-up that the Makefile asks for: what it refuses, and that it can be kept from installing anything as root."""
 
+from __future__ import annotations
+
 import os
 import shutil
 import subprocess

@@ -1,5 +1,7 @@
 """What names the project's addresses: nothing while they are empty; with them, every README has absolute links."""
 
+from __future__ import annotations
+
 import re
 from types import SimpleNamespace
 

@@ -1,5 +1,7 @@
 """The measure of how good anti-aliasing looks, on edges whose areas are known; and what its last run found."""
 
+from __future__ import annotations
+
 import numpy as np
 import pytest
 from benchmarks import antialiasing, quality

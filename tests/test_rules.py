@@ -1,5 +1,7 @@
 """What holds for every file of the repository, and for what is published."""
 
+from __future__ import annotations
+
 import json
 import re
 import shutil

@@ -1,5 +1,7 @@
 """Pictures without a background: alpha from two pictures, by Python and by the contracts."""
 
+from __future__ import annotations
+
 import io
 import json
 from pathlib import Path

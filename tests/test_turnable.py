@@ -1,5 +1,7 @@
 """Pictures of the documentation that can be turned, in a site that is served by http."""
 
+from __future__ import annotations
+
 from pathlib import Path
 from typing import Any
 

@@ -1,5 +1,7 @@
 """Warnings are at the line of the program that calls the package, not inside of it."""
 
+from __future__ import annotations
+
 import warnings
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor

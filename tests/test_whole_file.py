@@ -1,5 +1,7 @@
 """Files that are written whole, wherever they lead."""
 
+from __future__ import annotations
+
 import os
 import stat
 import threading

@@ -1,5 +1,7 @@
 """Functions that are called in other processes, and what becomes of their callers when those end."""
 
+from __future__ import annotations
+
 import os
 import signal
 import time

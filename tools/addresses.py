@@ -5,6 +5,8 @@ address there is empty, nothing names it: links of a README to files of the repo
 are left out, since an index of packages could not show them.
 """
 
+from __future__ import annotations
+
 import posixpath
 import re
 import tomllib

@@ -19,6 +19,8 @@ compiled together can change the order of instructions: a new token must not cha
 its bytes.
 """
 
+from __future__ import annotations
+
 import argparse
 import fcntl
 import hashlib

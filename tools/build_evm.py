@@ -9,6 +9,8 @@ so where it can only compare hashes: where that compiler is not installed, or no
 cannot be downloaded.
 """
 
+from __future__ import annotations
+
 import argparse
 import hashlib
 import json

@@ -5,6 +5,8 @@ the Creator is that of build/. If `make page` has not built it there, or somethi
 where Node and npm are. A wheel that is built from an sdist has the same files as one that is built here.
 """
 
+from __future__ import annotations
+
 import json
 import os
 import shutil

@@ -10,6 +10,8 @@ addresses, the code for the Foundry fixture, and what verify.js makes the compil
 what web/package.json lists. The addresses of the project are those of pyproject.toml.
 """
 
+from __future__ import annotations
+
 import argparse
 import json
 import re

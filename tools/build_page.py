@@ -5,6 +5,8 @@
 Needs Node and `npm ci` in web/. Fails if the page has become too large. --sizes: writes the sizes in JSON, too.
 """
 
+from __future__ import annotations
+
 import argparse
 import base64
 import gzip

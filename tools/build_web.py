@@ -7,6 +7,8 @@ Needs Node and `npm ci` in web/. The bundler is esbuild, of the version in web/p
 every machine.
 """
 
+from __future__ import annotations
+
 import argparse
 import json
 import subprocess

@@ -1,5 +1,7 @@
 """Child processes that can be interrupted, and that do not outlive what started them."""
 
+from __future__ import annotations
+
 import signal
 import subprocess
 from collections.abc import Iterator

@@ -3,6 +3,8 @@
 `python -m tools.cluster WORKERS` starts one, prints its address, and ends with its standard input.
 """
 
+from __future__ import annotations
+
 import subprocess
 import sys
 from collections.abc import Iterator

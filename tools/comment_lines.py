@@ -9,6 +9,8 @@ behind it, which are part of the names by which the optimizer orders functions. 
 are called with literals, for each of which there is a copy (see ZERO_SLOT in contracts/src/words/Memory.sol).
 """
 
+from __future__ import annotations
+
 import argparse
 import re
 import sys

@@ -4,6 +4,8 @@ python tools/dataset_costs.py            write the file
 python tools/dataset_costs.py --check    say where it is wrong
 """
 
+from __future__ import annotations
+
 import argparse
 import json
 import sys

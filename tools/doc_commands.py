@@ -6,6 +6,8 @@ The README's commands run in fresh environments with Node and without it: what n
 each command; the exit code is 1 if one failed.
 """
 
+from __future__ import annotations
+
 import os
 import re
 import shlex

@@ -7,6 +7,8 @@ Each is built as tools/build_evm.py builds the EVM, beside the sources. Prints a
 not detected.
 """
 
+from __future__ import annotations
+
 import os
 import shutil
 import subprocess

@@ -1,5 +1,7 @@
 """Compile the contracts of examples/ and render their tokens."""
 
+from __future__ import annotations
+
 import base64
 import io
 import json

@@ -8,6 +8,8 @@ For a scene (a file or the name of a dataset piece) the call is `Renderer.render
 unpacked from a word at each use, and long sequences of DUP and SWAP, mean that the function has too many variables.
 """
 
+from __future__ import annotations
+
 import argparse
 import sys
 from collections import Counter

@@ -7,6 +7,8 @@ Each maker is a module of this folder with a function `files`, which returns the
 table of the library holds addresses of compiled contracts: see `build` in the Makefile.
 """
 
+from __future__ import annotations
+
 import argparse
 import sys
 from importlib import import_module

@@ -5,6 +5,8 @@ The compiler takes no expressions in assembly, so every address, shift and mask 
 are computed, so that one line of the table adds a register, and the contracts and the package cannot differ.
 """
 
+from __future__ import annotations
+
 import json
 import re
 import textwrap

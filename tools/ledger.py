@@ -1,5 +1,7 @@
 """Simulate a chain in this process on which contracts can create others, as the Studio does."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from typing import Any
 

@@ -5,6 +5,8 @@ The letters are drawn for Shackled. Each is a list of strokes, and a stroke the 
 began is closed.
 """
 
+from __future__ import annotations
+
 from pathlib import Path
 
 FILE = Path(__file__).resolve().parent.parent / "contracts" / "src" / "building" / "Glyphs.sol"

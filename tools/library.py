@@ -4,6 +4,8 @@ The table has the addresses at which the Studio keeps the items, which are made 
 Studio: run it after tools/build_contracts.py whenever the Studio has changed, then compile the group "library".
 """
 
+from __future__ import annotations
+
 from pathlib import Path
 
 from shackled.library import Item, items

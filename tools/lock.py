@@ -8,6 +8,8 @@ Both hold for each version of Python and each platform that the project supports
 of them at once. tools/prepare.py installs what the files list, and no more.
 """
 
+from __future__ import annotations
+
 import subprocess
 import sys
 import tomllib

@@ -7,6 +7,8 @@ packages, what is unpacked of them, the picture and the result of each model, an
 again only if the code of the package is newer than its result, so that an interrupted run goes on where it was.
 """
 
+from __future__ import annotations
+
 import base64
 import json
 import re

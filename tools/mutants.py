@@ -11,6 +11,8 @@ kept in build/mutants.jsonl, by the compiled sources and the judges: what was in
 Prints a table in Markdown; a mutant that nothing detects is not necessarily a gap: see docs/conformance.md.
 """
 
+from __future__ import annotations
+
 import argparse
 import json
 import os

@@ -2,6 +2,8 @@
 chains, and bounds of what transactions cost.
 """
 
+from __future__ import annotations
+
 import json
 from math import isfinite
 from pathlib import Path

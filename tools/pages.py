@@ -1,5 +1,7 @@
 """Update figures in pages: what stands between the marks <!-- begin NAME --> and <!-- end NAME -->."""
 
+from __future__ import annotations
+
 import re
 import sys
 from collections.abc import Callable

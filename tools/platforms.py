@@ -7,6 +7,8 @@ Nothing is installed: uv (`pip install uv`) resolves the requirements for each p
 index of packages.
 """
 
+from __future__ import annotations
+
 import argparse
 import subprocess
 import sys

@@ -6,6 +6,8 @@ pixel is written as its three bytes, and a match that repeats them until another
 bits, so that no table is needed for them; one code, fitted to pictures of this renderer, serves all.
 """
 
+from __future__ import annotations
+
 import struct
 import zlib
 from functools import cache

@@ -12,6 +12,8 @@ Missing packages of the system are installed by apt-get, if that is there and th
 SHACKLED_NO_APT is set. Python packages are those of tools/locked, by version and hash.
 """
 
+from __future__ import annotations
+
 import importlib.util
 import os
 import shutil

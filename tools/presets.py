@@ -1,5 +1,7 @@
 """Make contracts/src/building/Presets.sol: the table of src/shackled/scene/presets.toml, for contracts."""
 
+from __future__ import annotations
+
 from pathlib import Path
 
 from shackled.base.checks import Color

@@ -1,5 +1,7 @@
 """Make tables of README.md and docs/: figures of benchmarks/ and of pictures.json, and the settings of a look."""
 
+from __future__ import annotations
+
 import json
 from pathlib import Path
 from typing import Any

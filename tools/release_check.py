@@ -7,6 +7,8 @@ Prints a row for each check, and exits with 1 if one failed. The Pythons are tho
 from the PATH or pyenv, the Nodes that of the PATH and those of nvm. Rows name those that are absent.
 """
 
+from __future__ import annotations
+
 import argparse
 import email
 import json

@@ -1,5 +1,7 @@
 """Make the table of contracts/README.md of which contract implements each virtual function of an engine."""
 
+from __future__ import annotations
+
 import re
 from functools import cache
 from pathlib import Path

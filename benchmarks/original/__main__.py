@@ -13,6 +13,8 @@ Rows of other scenes stay as they are. Of a new row, lit_pixels are the pixels t
 The embedded EVM has 1 GB of memory; scenes that need more are measured if pyrevm is installed, and left out otherwise.
 """
 
+from __future__ import annotations
+
 import argparse
 import base64
 import csv

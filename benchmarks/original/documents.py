@@ -1,5 +1,7 @@
 """Scenes in the JSON of the original contracts, and calls of their `render`."""
 
+from __future__ import annotations
+
 from typing import Any
 
 from shackled import Mesh, Scene

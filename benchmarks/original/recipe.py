@@ -10,6 +10,8 @@ Five of the fifteen models of the cost table cannot be made: of `armadillo`, `be
 `max-planck` it is not known from which file, or how, they were reduced.
 """
 
+from __future__ import annotations
+
 import argparse
 import hashlib
 import json

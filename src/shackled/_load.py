@@ -1,5 +1,7 @@
 """Scenes from files, pieces of datasets, meshes, arrays, and objects of trimesh."""
 
+from __future__ import annotations
+
 import os
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, nullcontext

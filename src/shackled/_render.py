@@ -1,5 +1,7 @@
 """Rendering of pictures and turntables."""
 
+from __future__ import annotations
+
 import os
 from collections.abc import Sequence
 from pathlib import Path

@@ -1,5 +1,7 @@
 """Why nothing of a scene is to be seen."""
 
+from __future__ import annotations
+
 import numpy as np
 from attrs import evolve
 

@@ -1,5 +1,7 @@
 """Files that contracts make in one call."""
 
+from __future__ import annotations
+
 import os
 from pathlib import Path
 

@@ -1,5 +1,7 @@
 """The errors and warnings of the library. A message is one line and names parameters in backticks, such as `size`."""
 
+from __future__ import annotations
+
 import os
 import re
 import sys

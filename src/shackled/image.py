@@ -1,5 +1,7 @@
 """Images: pixels, what they cost, and their file formats."""
 
+from __future__ import annotations
+
 import base64
 import hashlib
 import io

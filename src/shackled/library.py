@@ -1,5 +1,7 @@
 """The items of the library: their contents, and the addresses at which the Studio stores them."""
 
+from __future__ import annotations
+
 from collections.abc import Iterable
 from dataclasses import dataclass
 from functools import cache

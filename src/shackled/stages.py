@@ -4,6 +4,8 @@ Stages 3 to 6 are drawn by the contracts: the same scene as wireframe, in plain 
 contracts return pixels only, so the points of stages 1 and 2 are projected here, in double precision.
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 import numpy as np

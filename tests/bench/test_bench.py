@@ -1,5 +1,7 @@
 """The experiments, in a hurry: what they write, and what is known about it beforehand."""
 
+from __future__ import annotations
+
 import csv
 from pathlib import Path
 

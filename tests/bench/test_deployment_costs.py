@@ -1,5 +1,7 @@
 """What deploying and storing cost, now and after EIP-8037 (benchmarks.deployment)."""
 
+from __future__ import annotations
+
 import pytest
 from benchmarks import deployment
 from tools.pages import filled

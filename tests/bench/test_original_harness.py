@@ -1,5 +1,7 @@
 """The scenes of the original, made anew, and the measurement of a contract with its interface."""
 
+from __future__ import annotations
+
 import csv
 import json
 from dataclasses import replace

@@ -1,5 +1,7 @@
 """The address book: a file that is whole, or said to be broken."""
 
+from __future__ import annotations
+
 import errno
 import json
 import sys

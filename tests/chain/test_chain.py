@@ -1,5 +1,7 @@
 """Where pictures are made: the same bytes everywhere, the same gas, and errors that say what was wrong."""
 
+from __future__ import annotations
+
 import hashlib
 import json
 from importlib.resources import files

@@ -1,5 +1,7 @@
 """Connections: every way in which a node can fail is one line that says what to do, and never shows a key."""
 
+from __future__ import annotations
+
 import pickle
 import re
 import threading

@@ -1,5 +1,7 @@
 """Pictures from nodes: however a node gets the contracts, they are those of the embedded EVM, for the same gas."""
 
+from __future__ import annotations
+
 import zlib
 from bisect import bisect_left
 from collections.abc import Iterator

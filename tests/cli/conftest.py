@@ -1,5 +1,7 @@
 """A folder of its own for each test, with a mesh in it, and the command, run in this process."""
 
+from __future__ import annotations
+
 import shlex
 from pathlib import Path
 

@@ -1,5 +1,7 @@
 """How the command ends, whatever happens."""
 
+from __future__ import annotations
+
 import os
 import shutil
 import subprocess

@@ -1,5 +1,7 @@
 """--calldata, which several commands have."""
 
+from __future__ import annotations
+
 import pytest
 
 from commands import Shackled

@@ -1,5 +1,7 @@
 """The command `shackled creator`: what it serves, and to whom."""
 
+from __future__ import annotations
+
 import http.client
 import json
 import re

@@ -1,5 +1,7 @@
 """The command `shackled deploy`."""
 
+from __future__ import annotations
+
 import json
 import os
 import subprocess

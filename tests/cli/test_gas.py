@@ -1,5 +1,7 @@
 """The command `shackled gas`."""
 
+from __future__ import annotations
+
 import re
 import xml.etree.ElementTree as ElementTree
 from typing import Any

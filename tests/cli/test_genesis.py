@@ -1,5 +1,7 @@
 """The command `shackled genesis`."""
 
+from __future__ import annotations
+
 import json
 from pathlib import Path
 

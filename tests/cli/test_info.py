@@ -1,5 +1,7 @@
 """The command `shackled info`, and --strict."""
 
+from __future__ import annotations
+
 import re
 from contextlib import nullcontext
 from pathlib import Path

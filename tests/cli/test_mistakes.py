@@ -1,5 +1,7 @@
 """Wrong usage and bad input: exit code 2, one line that says what is wrong, and nothing is written."""
 
+from __future__ import annotations
+
 from pathlib import Path
 
 import pytest

@@ -1,5 +1,7 @@
 """Messages of the library name parameters; those of the command name options."""
 
+from __future__ import annotations
+
 import re
 from pathlib import Path
 

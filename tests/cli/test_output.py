@@ -1,5 +1,7 @@
 """Tables and JSON of commands are safe for any terminal, and complete; the bar for what takes a while."""
 
+from __future__ import annotations
+
 import io
 import json
 import sys

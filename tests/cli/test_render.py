@@ -1,5 +1,7 @@
 """The command `shackled render`."""
 
+from __future__ import annotations
+
 import hashlib
 import json
 import re

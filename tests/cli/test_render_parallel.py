@@ -1,5 +1,7 @@
 """`shackled render` in parts, in other places, and of turntables."""
 
+from __future__ import annotations
+
 import hashlib
 import os
 import signal

@@ -1,5 +1,7 @@
 """Several inputs of one command."""
 
+from __future__ import annotations
+
 import json
 import os
 import re

@@ -1,5 +1,7 @@
 """Standard input and standard output."""
 
+from __future__ import annotations
+
 import io
 import json
 import os

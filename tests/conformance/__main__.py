@@ -8,6 +8,8 @@ The scenes are drawn by the contracts and by OpenGL. What is out of bounds is pr
 colours, and the exit code is 1 then; 2 without OpenGL.
 """
 
+from __future__ import annotations
+
 import argparse
 import os
 import sys

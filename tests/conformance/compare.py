@@ -1,5 +1,7 @@
 """A picture of the contracts against OpenGL's: what is compared, and what is within the bounds."""
 
+from __future__ import annotations
+
 from collections import Counter
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass

@@ -4,6 +4,8 @@ EGL makes a context without a screen; Mesa's llvmpipe will do. Clip coordinates 
 as they are; everything else that a fragment needs is relative to the eye or to a light, so that float32 holds it.
 """
 
+from __future__ import annotations
+
 import ctypes
 from dataclasses import dataclass
 from functools import cache

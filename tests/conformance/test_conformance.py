@@ -1,5 +1,7 @@
 """The part of `make conformance` that is quick enough for every run of the tests, and what it rests on."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 
 import numpy as np

@@ -4,6 +4,8 @@ Nothing here is shared with what makes the numbers of a call: positions are thos
 to the ten bits that a mesh holds of them, and a near plane that the user leaves open is where `near_plane` puts it.
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 import numpy as np

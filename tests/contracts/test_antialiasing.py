@@ -3,6 +3,8 @@
 The fill rule and the shapes are those of `test_fill_rule`, at the places of the samples in place of the centres.
 """
 
+from __future__ import annotations
+
 import numpy as np
 import pytest
 from attrs import evolve

@@ -1,5 +1,7 @@
 """Calldata that no codec of ours would make: each call returns a picture or is refused, within a bound of gas."""
 
+from __future__ import annotations
+
 import re
 import struct
 from collections import Counter

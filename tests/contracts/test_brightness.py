@@ -1,5 +1,7 @@
 """More light is never darker: a colour that rises through 255 stays there, in every way of shading."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from functools import partial
 from typing import Any

@@ -1,5 +1,7 @@
 """Geometry behind the eye, degenerate, or exactly on a border; the judge sees what is clipped in random scenes."""
 
+from __future__ import annotations
+
 from itertools import pairwise, product
 
 import numpy as np

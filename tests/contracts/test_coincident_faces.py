@@ -1,5 +1,7 @@
 """Two faces in the same place: the one that is turned to the eye is seen, and hides the one that is turned away."""
 
+from __future__ import annotations
+
 from typing import Any, get_args
 
 import numpy as np

@@ -1,5 +1,7 @@
 """The folders of contracts/src: which imports which, what the README says of them, and what their files compute."""
 
+from __future__ import annotations
+
 import ast
 import os.path
 import re

@@ -1,5 +1,7 @@
 """The definition of the renderer, contracts/picture.py, draws what the contracts draw, to what they approximate."""
 
+from __future__ import annotations
+
 import subprocess
 import sys
 from pathlib import Path

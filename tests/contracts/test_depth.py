@@ -1,5 +1,7 @@
 """What is in front is seen."""
 
+from __future__ import annotations
+
 import numpy as np
 import pytest
 from attrs import evolve

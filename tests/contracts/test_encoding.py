@@ -1,5 +1,7 @@
 """What the contracts return is read by an outside decoder: BMP, `data:` URI, SVG."""
 
+from __future__ import annotations
+
 import base64
 import io
 import struct

@@ -4,6 +4,8 @@ The triangles have whole coordinates in 1/256 of a pixel, and the expected pixel
 in whole numbers.
 """
 
+from __future__ import annotations
+
 import numpy as np
 import pytest
 from attrs import evolve

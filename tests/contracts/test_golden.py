@@ -1,6 +1,6 @@
 """No pixel and no gas of tests/support/golden.json may change unnoticed."""
 
-from collections.abc import Iterator
+from __future__ import annotations
 
 import pytest
 from attrs import evolve
@@ -10,29 +10,14 @@ from pictures import chain
 from shackled.artifacts import artifact
 from shackled.chain._embedded import RevmChain
 from shackled.chain._engines import engines
-from shackled.chain._opening import _opened
 from shackled.gas._trace import places
 from shackled.scene._codec import render_call
 
 
-@pytest.fixture(params=["compiled", "interpreter"])
-def evm(request: pytest.FixtureRequest) -> Iterator[str]:
-    """What runs all contracts of the embedded EVM."""
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("SHACKLED_EVM", request.param)
-        for known in (_opened, chain):
-            known.cache_clear()
-        yield request.param
-    for known in (_opened, chain):
-        known.cache_clear()
-
-
-def test_pixels_and_gas(evm: str) -> None:
-    """The interpreter makes one call of four: tests/evm compares it with other EVMs."""
-    new, recorded = golden.take(1 if evm == "compiled" else 4), golden.recorded()
-    if evm == "interpreter":
-        recorded = {name: recorded[name] for name in recorded.keys() & new.keys()}
-    changed = golden.differences(recorded, new)
+@pytest.mark.usefixtures("each_evm")
+def test_pixels_and_gas() -> None:
+    new = golden.take()
+    changed = golden.differences(golden.recorded(), new)
     title = f"{len(changed)} of {len(new)} scenes differ from golden.json; if this is meant, run `make golden`:"
     assert not changed, "\n  ".join([title, *changed])
 

@@ -1,5 +1,7 @@
 """The interface of the original contracts draws what the original's scenes load as."""
 
+from __future__ import annotations
+
 import base64
 import io
 import xml.etree.ElementTree as ElementTree

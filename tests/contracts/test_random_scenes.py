@@ -3,6 +3,8 @@
 `make fuzz` judges more of them; tests/evm/test_scenes.py runs them in several EVMs.
 """
 
+from __future__ import annotations
+
 from pathlib import Path
 
 import numpy as np

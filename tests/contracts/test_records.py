@@ -1,5 +1,7 @@
 """Records of `Scene.extensions`: they say what the scene says, belong to their objects, and name the engines."""
 
+from __future__ import annotations
+
 import shutil
 from pathlib import Path
 from typing import Any

@@ -1,5 +1,7 @@
 """The registers and words of the pipeline are made of one table: none may lie over another."""
 
+from __future__ import annotations
+
 import re
 import tomllib
 from itertools import pairwise

@@ -1,5 +1,7 @@
 """Scenes that need several engines look as the judge says; the judge knows no runs."""
 
+from __future__ import annotations
+
 import base64
 import re
 from itertools import permutations

@@ -1,5 +1,7 @@
 """Shadows of one light, and a ground that catches them."""
 
+from __future__ import annotations
+
 from itertools import permutations
 from pathlib import Path
 from typing import Any

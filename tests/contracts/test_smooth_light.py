@@ -4,6 +4,8 @@ A search in float64 looks for the largest error that they let through; the judge
 light is that of each point.
 """
 
+from __future__ import annotations
+
 import numpy as np
 import pytest
 from numpy.typing import NDArray

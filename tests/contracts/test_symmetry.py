@@ -1,5 +1,7 @@
 """What must not change the picture, or change it in a known way: shifts, mirrors and orders; and Euler angles."""
 
+from __future__ import annotations
+
 from typing import Any
 
 import numpy as np

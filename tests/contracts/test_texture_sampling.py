@@ -1,5 +1,7 @@
 """Colours of textures: those of the formulas of OpenGL, in floats."""
 
+from __future__ import annotations
+
 from itertools import product
 from typing import Any
 

@@ -1,5 +1,7 @@
 """Faces that a tile does not show are left out before the engine is called; pixels and counts know nothing of it."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from typing import Any
 

@@ -1,5 +1,7 @@
 """What a picture costs is the work on its canvas, and what a tile costs is the work on the tile."""
 
+from __future__ import annotations
+
 import numpy as np
 import pytest
 from attrs import evolve

@@ -1,5 +1,7 @@
 """The parts of a picture equal the whole, byte for byte."""
 
+from __future__ import annotations
+
 from collections.abc import Iterator
 
 import numpy as np

@@ -1,5 +1,7 @@
 """Meshes without gaps and overlaps give pictures without gaps and overlaps."""
 
+from __future__ import annotations
+
 import numpy as np
 import pytest
 from attrs import evolve

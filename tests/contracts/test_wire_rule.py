@@ -5,6 +5,8 @@ whole numbers of 1/256 of a pixel crosses the middle of a column or row. Where t
 the line is exactly in the middle of a column or row, either will do.
 """
 
+from __future__ import annotations
+
 from fractions import Fraction
 
 import numpy as np

@@ -1,5 +1,7 @@
 """Cleaning and simplifying meshes."""
 
+from __future__ import annotations
+
 import os
 from pathlib import Path
 from typing import Any

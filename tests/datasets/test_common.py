@@ -1,5 +1,7 @@
 """The common objects that need no file."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from functools import partial
 

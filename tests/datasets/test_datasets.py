@@ -1,5 +1,7 @@
 """All datasets together, by name."""
 
+from __future__ import annotations
+
 import base64
 import io
 import json

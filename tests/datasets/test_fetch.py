@@ -1,5 +1,7 @@
 """Fetching models, from a server on this machine."""
 
+from __future__ import annotations
+
 import errno
 import hashlib
 import re

@@ -1,5 +1,7 @@
 """Accounts: from keystores and environment variables; whatever is wrong with them, no key is shown."""
 
+from __future__ import annotations
+
 import json
 from pathlib import Path
 

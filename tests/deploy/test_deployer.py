@@ -1,5 +1,7 @@
 """Deploying on real nodes: at addresses that are known before, for the gas that was quoted, once."""
 
+from __future__ import annotations
+
 import json
 from itertools import count
 from pathlib import Path

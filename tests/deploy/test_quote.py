@@ -1,5 +1,7 @@
 """Quotes: what a transaction may cost at most is bounded by what is known here, whatever a node says."""
 
+from __future__ import annotations
+
 from contextlib import AbstractContextManager
 from typing import Any
 

@@ -1,5 +1,7 @@
 """Transactions: what can go wrong with one is said in one line."""
 
+from __future__ import annotations
+
 import time
 from contextlib import AbstractContextManager
 from dataclasses import replace

@@ -1,5 +1,7 @@
 """The files with which explorers verify the sources: complete, and what they compile to."""
 
+from __future__ import annotations
+
 import json
 import os
 import re

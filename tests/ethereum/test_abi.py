@@ -1,5 +1,7 @@
 """Calls, answers and errors as the ABI has them."""
 
+from __future__ import annotations
+
 from typing import Any
 
 import pytest

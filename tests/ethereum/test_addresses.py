@@ -1,5 +1,7 @@
 """Addresses, hashes, words and headers of blocks, by the examples of their standards."""
 
+from __future__ import annotations
+
 import pytest
 
 from shackled.errors import InputError

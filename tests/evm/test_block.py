@@ -1,5 +1,7 @@
 """The block in which calls run: number, timestamp, PREVRANDAO, and the hashes of the blocks before it."""
 
+from __future__ import annotations
+
 import pytest
 
 from evms import ADDRESS, Ours, pyrevm_call

@@ -1,5 +1,7 @@
 """Small programs end with the same status, output and gas in the EVM of the package, in pyrevm and in py-evm."""
 
+from __future__ import annotations
+
 import itertools
 import random
 

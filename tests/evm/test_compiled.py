@@ -1,5 +1,7 @@
 """Compiled contracts return what the interpreter returns, for the same gas; and keep to their limits."""
 
+from __future__ import annotations
+
 import os
 import random
 import sys

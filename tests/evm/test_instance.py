@@ -1,5 +1,7 @@
 """The embedded EVM as a program: threads, bounds of memory, and the cache of its machine code."""
 
+from __future__ import annotations
+
 import os
 import shutil
 import stat

@@ -1,5 +1,7 @@
 """evm.wasm: of the sources, small, without traces of a machine, and shipped with the licences of what is in it."""
 
+from __future__ import annotations
+
 import gzip
 import hashlib
 import json

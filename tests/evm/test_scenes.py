@@ -1,5 +1,7 @@
 """Pictures and refusals: the same bytes for the same gas in the EVM of the package, pyrevm, py-evm and a real node."""
 
+from __future__ import annotations
+
 import os
 from collections.abc import Iterator
 from dataclasses import dataclass

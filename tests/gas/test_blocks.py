@@ -1,5 +1,7 @@
 """Gas by basic block."""
 
+from __future__ import annotations
+
 import subprocess
 import sys
 from functools import cache

@@ -1,5 +1,7 @@
 """Where a picture fits, and the gas limits that are documented elsewhere."""
 
+from __future__ import annotations
+
 from datetime import date
 
 import pytest

@@ -1,5 +1,7 @@
 """Pictures that are lowered until they fit a request."""
 
+from __future__ import annotations
+
 import pytest
 from attrs import evolve
 

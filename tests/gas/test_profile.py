@@ -1,5 +1,7 @@
 """Gas by stage, by function and by line: from the artifacts alone, and adding up."""
 
+from __future__ import annotations
+
 import re
 import xml.etree.ElementTree as ElementTree
 

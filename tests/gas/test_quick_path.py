@@ -1,5 +1,7 @@
 """Which faces the contracts light once: told from the scene, judged by the gas of a pixel."""
 
+from __future__ import annotations
+
 from typing import Any
 
 import pytest

@@ -1,5 +1,7 @@
 """What an error for too little gas says would be enough."""
 
+from __future__ import annotations
+
 import re
 from typing import Any
 

@@ -1,5 +1,7 @@
 """The search for the least gas limit, and by what it differs from the gas that is used."""
 
+from __future__ import annotations
+
 import pytest
 from attrs import evolve
 

@@ -8,6 +8,8 @@
 A wrong pixel is printed with its scene, what is drawn and what would be right. The exit code is 1 then.
 """
 
+from __future__ import annotations
+
 import argparse
 import os
 import sys

@@ -5,6 +5,8 @@ surface. A pixel is the mean of its samples. The colour of a triangle in a pixel
 the centre, at a sample or at the middle of the samples that the triangle covers.
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass, replace
 
 import numpy as np

@@ -4,6 +4,8 @@ The colour of a triangle in a pixel is computed once, somewhere in it: at its ce
 the samples that the triangle covers. Only whether a light with shadows reaches it is decided for each sample.
 """
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from itertools import combinations
 

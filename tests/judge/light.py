@@ -1,5 +1,7 @@
 """The colours of points of an object, by the formulas of contracts/picture.py, and what they may be instead."""
 
+from __future__ import annotations
+
 from typing import Any
 
 import numpy as np

@@ -5,6 +5,8 @@ no shadows; of culled objects only the faces that the rule of the shadow names d
 nothing shades wires.
 """
 
+from __future__ import annotations
+
 import numpy as np
 
 from picture import ALL_FACES, TURNED_AWAY, Array, Integers, toward

@@ -1,5 +1,7 @@
 """The part of `make conformance` that is quick enough for every run of the tests; and what the judge finds."""
 
+from __future__ import annotations
+
 import numpy as np
 import pytest
 from attrs import evolve
@@ -148,6 +150,7 @@ def test_highlight_of_wires(size: int, shininess: int, most: int) -> None:
 SEEDS = range(1, 5)
 
 
+@pytest.mark.usefixtures("each_evm")
 @pytest.mark.parametrize("kind", TAME)
 def test_random_scenes(kind: str) -> None:
     found = sum((judge(f"{kind} {seed}", random_scene(kind, seed)) for seed in SEEDS), Verdict())

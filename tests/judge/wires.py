@@ -1,5 +1,7 @@
 """Wires of plain pictures: in each column, or row of steep lines, the pixel nearest to the line (docs/explain.md)."""
 
+from __future__ import annotations
+
 import numpy as np
 
 from picture import SUBPIXELS, Camera

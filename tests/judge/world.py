@@ -1,5 +1,7 @@
 """The scene of a call, as contracts/picture.py reads it, with faces that are counted through all objects."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from typing import Any
 

@@ -1,5 +1,7 @@
 """The library on chain, and its pictures at web3:// addresses: contracts, table, commands."""
 
+from __future__ import annotations
+
 import io
 import json
 from pathlib import Path

@@ -1,5 +1,7 @@
 """docs/studio.md: its pictures, and the contracts of its examples."""
 
+from __future__ import annotations
+
 import base64
 import re
 from itertools import product

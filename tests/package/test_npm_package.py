@@ -1,5 +1,7 @@
 """The npm package for contract authors, installed and used as they do."""
 
+from __future__ import annotations
+
 import base64
 import io
 import json

@@ -1,5 +1,7 @@
 """web3:// addresses, opened on a node by web3protocol, the client of browsers and gateways."""
 
+from __future__ import annotations
+
 import base64
 import io
 import json

@@ -1,5 +1,7 @@
 """The Creator in browsers: as files from a plain server, and as one file from disk. Nothing else can be reached."""
 
+from __future__ import annotations
+
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 from typing import Any

@@ -1,5 +1,7 @@
 """Controls: each changes the picture and is reset; looks, lights, objects, undo."""
 
+from __future__ import annotations
+
 import json
 from typing import Any
 

@@ -3,6 +3,8 @@
 What may differ is in ACCEPTED, with the reason.
 """
 
+from __future__ import annotations
+
 import json
 import re
 import runpy

@@ -1,5 +1,7 @@
 """The picture: its bytes, what moves it, and what is shown while it is drawn."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any

@@ -1,5 +1,7 @@
 """For everybody: keyboards, screen readers, small screens, themes, high contrast, calm."""
 
+from __future__ import annotations
+
 import io
 from typing import Any
 

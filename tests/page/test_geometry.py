@@ -1,5 +1,7 @@
 """The geometry of the page is that of Python: normals, creases, winding and closedness, number by number."""
 
+from __future__ import annotations
+
 from collections.abc import Iterable, Sequence
 from contextlib import nullcontext
 from pathlib import Path

@@ -1,5 +1,7 @@
 """Strangers' files in the Creator: they make it ask for nothing, take little, and their textures are drawn."""
 
+from __future__ import annotations
+
 import base64
 import io
 import json

@@ -1,5 +1,7 @@
 """What is opened: pieces, seeds, files, links, and what was kept."""
 
+from __future__ import annotations
+
 import hashlib
 import io
 import json

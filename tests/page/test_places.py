@@ -1,5 +1,7 @@
 """Where the page runs: from a plain server and from disk, in both browsers, offline; and what it weighs."""
 
+from __future__ import annotations
+
 import gzip
 import json
 import re

@@ -1,5 +1,7 @@
 """Programs and commands that the Creator writes make the same picture again."""
 
+from __future__ import annotations
+
 import base64
 import io
 import json

@@ -1,5 +1,7 @@
 """What is taken home is what is seen: files, programs, links; and what is refused is told."""
 
+from __future__ import annotations
+
 import base64
 import io
 import json

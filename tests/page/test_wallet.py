@@ -1,5 +1,7 @@
 """Tokens by the visitor's wallet: one that the test plays, with a development node behind it, honest or not."""
 
+from __future__ import annotations
+
 import base64
 import json
 from collections.abc import Callable, Iterator

@@ -1,5 +1,7 @@
 """The workers of the page make the files and figures that Python makes."""
 
+from __future__ import annotations
+
 import base64
 import gzip
 import html

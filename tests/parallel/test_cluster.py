@@ -1,5 +1,7 @@
 """Workers of a dask cluster."""
 
+from __future__ import annotations
+
 import json
 import re
 import socket

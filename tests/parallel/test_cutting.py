@@ -1,5 +1,7 @@
 """How a canvas is cut."""
 
+from __future__ import annotations
+
 import numpy as np
 from hypothesis import given, settings
 from hypothesis import strategies as st

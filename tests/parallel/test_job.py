@@ -1,5 +1,7 @@
 """The same picture, however it is cut and wherever it is rendered."""
 
+from __future__ import annotations
+
 import importlib.util
 import threading
 import time

@@ -1,5 +1,7 @@
 """Several nodes at once, and nodes that misbehave: the picture is right, or the error is clear."""
 
+from __future__ import annotations
+
 import re
 from collections.abc import Iterator
 from typing import Any

@@ -1,5 +1,7 @@
 """What the scheduler does with places that fail."""
 
+from __future__ import annotations
+
 import re
 import threading
 import time

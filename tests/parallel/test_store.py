@@ -1,5 +1,7 @@
 """Finished parts on the disk."""
 
+from __future__ import annotations
+
 from pathlib import Path
 
 import pytest

@@ -1,5 +1,7 @@
 """Canvases so large that strips are cheaper than the whole; and the written figures of tiles."""
 
+from __future__ import annotations
+
 import json
 from dataclasses import replace
 from itertools import pairwise

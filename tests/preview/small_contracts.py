@@ -1,5 +1,7 @@
 """Contracts of a few instructions, for previews without a compiler."""
 
+from __future__ import annotations
+
 from pathlib import Path
 from typing import Any
 

@@ -1,5 +1,7 @@
 """Contracts that Foundry and Hardhat have compiled: those of the source as it is now. Scripts stand for the tools."""
 
+from __future__ import annotations
+
 import json
 import os
 from collections.abc import Callable

@@ -1,5 +1,7 @@
 """Pictures that show only the background: mostly of faces that are clockwise."""
 
+from __future__ import annotations
+
 import io
 from pathlib import Path
 from typing import Any

@@ -1,5 +1,7 @@
 """Files of tokens that load from outside, or use what marketplaces leave out."""
 
+from __future__ import annotations
+
 import json
 import time
 from typing import Any

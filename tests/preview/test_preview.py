@@ -1,5 +1,7 @@
 """The preview of a token contract: compiler, deployment, tokens, and the page that follows the sources."""
 
+from __future__ import annotations
+
 import base64
 import io
 import json

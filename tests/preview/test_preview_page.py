@@ -1,5 +1,7 @@
 """The page of the preview in a real browser, through saves and errors of the compiler, until Ctrl-C."""
 
+from __future__ import annotations
+
 import json
 import os
 import re

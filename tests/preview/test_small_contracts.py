@@ -1,5 +1,7 @@
 """The preview of contracts of a few instructions: which tokens are read, and what is said of them."""
 
+from __future__ import annotations
+
 import time
 from pathlib import Path
 from typing import Any

@@ -1,5 +1,7 @@
 """Items of the library and the author's scenes, in the Studio before the contract is deployed."""
 
+from __future__ import annotations
+
 import shutil
 from pathlib import Path
 

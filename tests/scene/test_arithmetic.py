@@ -1,5 +1,7 @@
 """Arithmetic that is the same on each machine, and rotations."""
 
+from __future__ import annotations
+
 import hashlib
 import math
 import struct

@@ -1,5 +1,7 @@
 """Mesh files are drawn with the triangles that the canvas can show."""
 
+from __future__ import annotations
+
 import json
 import warnings
 from pathlib import Path

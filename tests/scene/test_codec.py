@@ -1,5 +1,7 @@
 """The codec: scenes as calldata, against an outside decoder."""
 
+from __future__ import annotations
+
 import struct
 from typing import Any
 

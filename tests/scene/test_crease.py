@@ -1,5 +1,7 @@
 """Normals that are smooth except across creases."""
 
+from __future__ import annotations
+
 import itertools
 from collections.abc import Callable
 from pathlib import Path

@@ -3,6 +3,8 @@
 `decode` itself compares the bytes of the call that is made of the scene again.
 """
 
+from __future__ import annotations
+
 import math
 
 import numpy as np

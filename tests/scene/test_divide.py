@@ -1,5 +1,7 @@
 """Meshes of more vertices or triangles than a contract takes."""
 
+from __future__ import annotations
+
 import numpy as np
 import pytest
 from attrs import evolve

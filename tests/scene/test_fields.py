@@ -1,5 +1,7 @@
 """The fields of scenes are described in one table, contracts/scene_fields.toml."""
 
+from __future__ import annotations
+
 from typing import Any
 
 import attrs

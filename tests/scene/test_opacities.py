@@ -1,5 +1,7 @@
 """Opacities of vertices: what a mesh takes, what keeps them, and the calls that hold them."""
 
+from __future__ import annotations
+
 import pickle
 from pathlib import Path
 from typing import Any

@@ -1,5 +1,7 @@
 """Looks by name."""
 
+from __future__ import annotations
+
 from itertools import combinations
 
 import numpy as np

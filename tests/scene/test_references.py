@@ -1,5 +1,7 @@
 """Meshes of pieces in scene files and links, normals across creases there, and what only the Creator reads."""
 
+from __future__ import annotations
+
 import json
 from pathlib import Path
 from typing import Any

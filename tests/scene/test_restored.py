@@ -1,5 +1,7 @@
 """Every property of a scene comes back from its call, and from its scene file: none is lost or becomes another."""
 
+from __future__ import annotations
+
 from pathlib import Path
 from typing import Any
 

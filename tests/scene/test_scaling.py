@@ -1,5 +1,7 @@
 """The work between a scene and its call is in proportion to the number of objects, records and vertices."""
 
+from __future__ import annotations
+
 import sys
 import time
 from collections.abc import Callable

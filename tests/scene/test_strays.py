@@ -1,5 +1,7 @@
 """Triangles far away from a model, which decide nothing of its picture."""
 
+from __future__ import annotations
+
 from typing import Any
 
 import numpy as np

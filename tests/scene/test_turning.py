@@ -1,5 +1,7 @@
 """Scenes turned about their middle."""
 
+from __future__ import annotations
+
 import numpy as np
 import pytest
 from attrs import evolve

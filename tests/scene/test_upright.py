@@ -1,5 +1,7 @@
 """Which axis points up: what is taken, what is told, and what turns a model."""
 
+from __future__ import annotations
+
 import warnings
 from pathlib import Path
 from typing import Any

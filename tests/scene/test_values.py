@@ -1,5 +1,7 @@
 """The parts of a scene as values: what is equal, what is taken, and what is refused."""
 
+from __future__ import annotations
+
 import copy
 import json
 import pickle

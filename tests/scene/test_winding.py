@@ -1,5 +1,7 @@
 """Fronts of faces, and which are culled."""
 
+from __future__ import annotations
+
 import warnings
 from pathlib import Path
 

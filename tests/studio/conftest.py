@@ -1,5 +1,7 @@
 """An EVM with the contracts of the package, for the tests of a file."""
 
+from __future__ import annotations
+
 import pytest
 from tools.ledger import World
 

@@ -1,5 +1,7 @@
 """The presets of the scene builder are those of Python."""
 
+from __future__ import annotations
+
 import pytest
 from attrs import evolve
 from eth_abi.abi import encode

@@ -1,5 +1,7 @@
 """The scenes of docs/building.md."""
 
+from __future__ import annotations
+
 import re
 from pathlib import Path
 

@@ -1,5 +1,7 @@
 """Meshes as they are kept: nothing is lost, and the contract gives back what Python does."""
 
+from __future__ import annotations
+
 import re
 
 import numpy as np

@@ -1,5 +1,7 @@
 """Whoever has the ABI of a contract can decode whatever it reverts with."""
 
+from __future__ import annotations
+
 from functools import cache
 
 import pytest

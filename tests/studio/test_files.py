@@ -1,5 +1,7 @@
 """Files that contracts make in one call, from Python."""
 
+from __future__ import annotations
+
 import io
 from pathlib import Path
 from typing import Any

@@ -1,5 +1,7 @@
 """GLB files: the contract against a plain reader, Khronos' validator, trimesh and the package's own reader."""
 
+from __future__ import annotations
+
 import base64
 import io
 import json

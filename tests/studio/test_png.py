@@ -1,5 +1,7 @@
 """PNG files: the contract against its model, byte for byte, and both against Pillow."""
 
+from __future__ import annotations
+
 import base64
 import io
 from pathlib import Path

@@ -1,5 +1,7 @@
 """The library with which contracts build scenes."""
 
+from __future__ import annotations
+
 import math
 from typing import Any
 

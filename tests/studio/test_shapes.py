@@ -1,5 +1,7 @@
 """The shapes and letters with which contracts build meshes."""
 
+from __future__ import annotations
+
 import math
 import string
 from typing import Any

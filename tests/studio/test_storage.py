@@ -1,5 +1,7 @@
 """What Python says of storing is what happens, and what was stored is read back."""
 
+from __future__ import annotations
+
 import io
 from collections.abc import Iterable
 from typing import Any, cast

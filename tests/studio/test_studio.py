@@ -1,5 +1,7 @@
 """Meshes and scenes are kept once, for everybody, and drawn as what they were."""
 
+from __future__ import annotations
+
 import base64
 import re
 from collections.abc import Callable

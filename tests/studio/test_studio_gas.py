@@ -1,5 +1,7 @@
 """No figure of benchmarks/studio.json and benchmarks/motion.json may rise unnoticed."""
 
+from __future__ import annotations
+
 import warnings
 from typing import Any
 

@@ -1,5 +1,7 @@
 """Animated PNG files: the contract against a model, byte for byte, and both against Pillow."""
 
+from __future__ import annotations
+
 import base64
 import io
 import struct

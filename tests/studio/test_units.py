@@ -1,5 +1,7 @@
 """Numbers that were not multiplied by 2^32, which the Studio refuses in scenes that are passed to it."""
 
+from __future__ import annotations
+
 from typing import Any
 
 import pytest

@@ -1,5 +1,7 @@
 """The contracts of tests/tokens/contracts, compiled."""
 
+from __future__ import annotations
+
 from functools import cache
 from pathlib import Path
 

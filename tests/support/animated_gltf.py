@@ -1,5 +1,7 @@
 """A small glTF file with animations, in text."""
 
+from __future__ import annotations
+
 from pathlib import Path
 from typing import Any
 

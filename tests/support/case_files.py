@@ -1,5 +1,7 @@
 """Files that rows of cases.toml name by `make`: rows of FILES, and functions that write one into a folder."""
 
+from __future__ import annotations
+
 import gzip
 import io
 import struct

@@ -1,5 +1,7 @@
 """Commands that tests run, and what they print."""
 
+from __future__ import annotations
+
 import json
 from collections.abc import Callable
 from dataclasses import dataclass

@@ -1,5 +1,7 @@
 """The Solidity compiler, without which some tests are skipped."""
 
+from __future__ import annotations
+
 from pathlib import Path
 
 import pytest

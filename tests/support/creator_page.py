@@ -1,5 +1,7 @@
 """Pages in tabs of chromium, as tests use them: any that moves a scene, and the Creator's."""
 
+from __future__ import annotations
+
 import base64
 import json
 import time

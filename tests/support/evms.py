@@ -3,6 +3,8 @@
 Names of failures are left out: they differ between versions of revm.
 """
 
+from __future__ import annotations
+
 from collections.abc import Callable, Collection
 from functools import cache
 from typing import Any

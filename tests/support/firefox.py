@@ -1,5 +1,7 @@
 """Debian's Firefox without a screen, driven by WebDriver BiDi: https://w3c.github.io/webdriver-bidi."""
 
+from __future__ import annotations
+
 import json
 import shutil
 import subprocess

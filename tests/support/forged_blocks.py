@@ -1,5 +1,7 @@
 """Blocks that a lying node makes up."""
 
+from __future__ import annotations
+
 from typing import Any
 
 from shackled.ethereum._encoding import encode_header, keccak256, to_hex

@@ -3,6 +3,8 @@
 It shares no code with the package: numbers are taken from the bytes one by one, and NumPy multiplies matrices only.
 """
 
+from __future__ import annotations
+
 import base64
 import json
 import struct

@@ -1,5 +1,7 @@
 """Scenes that several tests draw."""
 
+from __future__ import annotations
+
 import numpy as np
 from attrs import evolve
 

@@ -1,5 +1,7 @@
 """Mesh files that tests write and read back, and a glTF document to which they add."""
 
+from __future__ import annotations
+
 import base64
 import io
 import json

@@ -1,5 +1,7 @@
 """Scripts for Node that answer a file of JSON with another, and modules of web/src bundled for them."""
 
+from __future__ import annotations
+
 import json
 import os
 import shutil

@@ -1,5 +1,7 @@
 """Nodes for tests: real ones, and servers that behave as nodes should not."""
 
+from __future__ import annotations
+
 import http.server
 import json
 import socket

@@ -1,5 +1,7 @@
 """A Genesis collection on a node, as many tests need it."""
 
+from __future__ import annotations
+
 from shackled.chain import Connection
 from shackled.deploy import Transactor
 from shackled.ethereum._encoding import checksum_address

@@ -1,5 +1,7 @@
 """Scenes in the JSON of the original contracts: of the kinds that it was measured with, pieces, and odd ones."""
 
+from __future__ import annotations
+
 from functools import cache
 from typing import Any
 

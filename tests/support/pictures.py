@@ -1,5 +1,7 @@
 """What the tests ask of the contracts, and the scenes that they share."""
 
+from __future__ import annotations
+
 import io
 from functools import cache
 from pathlib import Path

@@ -1,5 +1,7 @@
 """Contracts of tests/studio that call libraries as they are asked."""
 
+from __future__ import annotations
+
 from typing import Any
 
 from eth_abi.abi import decode

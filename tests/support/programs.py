@@ -1,5 +1,7 @@
 """Random programs for the EVM: arithmetic, stack, memory, the data of the call, forks that join, and loops."""
 
+from __future__ import annotations
+
 import random
 
 JUMPDEST, RETURN = 0x5B, 0xF3

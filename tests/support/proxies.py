@@ -1,5 +1,7 @@
 """A proxy in front of a node that misbehaves when it is asked for pictures."""
 
+from __future__ import annotations
+
 import itertools
 import json
 import time

@@ -1,5 +1,7 @@
 """Random scenes of many kinds, each from its kind and a seed, as a user might send them; and calls that are wrong."""
 
+from __future__ import annotations
+
 import zlib
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass

@@ -1,5 +1,7 @@
 """Scenes in the Studio of a `World`: stored, drawn with changes, and turned as it turns them."""
 
+from __future__ import annotations
+
 from typing import Any
 
 import numpy as np

@@ -1,5 +1,7 @@
 """Checks of a compiled contract: which memory its instructions may write, by a decoder of our own."""
 
+from __future__ import annotations
+
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 from typing import Any

@@ -1,5 +1,7 @@
 """What a token shows, read as a marketplace does; and transactions that a contract refuses."""
 
+from __future__ import annotations
+
 import base64
 import io
 import json

@@ -1,5 +1,7 @@
 """What the collections of icons and of editions check alike: the name and the scene of what is added."""
 
+from __future__ import annotations
+
 from contextlib import AbstractContextManager, nullcontext
 from dataclasses import dataclass
 from typing import Any

@@ -1,5 +1,7 @@
 """Who may mint before the public sale, as files say it: allow lists, and permissions."""
 
+from __future__ import annotations
+
 import json
 from functools import reduce
 from pathlib import Path

@@ -1,5 +1,7 @@
 """A Genesis collection with one token: what its owner says, what goes wrong, and what is found out."""
 
+from __future__ import annotations
+
 import json
 import re
 from pathlib import Path

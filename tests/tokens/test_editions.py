@@ -1,5 +1,7 @@
 """The collection to which anybody adds scenes."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from functools import cache
 from typing import Any

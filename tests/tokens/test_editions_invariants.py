@@ -1,5 +1,7 @@
 """Whatever artists and buyers do, in whatever order: what must always hold of the editions."""
 
+from __future__ import annotations
+
 import copy
 from dataclasses import astuple, dataclass
 

@@ -1,5 +1,7 @@
 """Editions by the command line, from the deployment to the withdrawal, seen by web3.py; and nodes that lie."""
 
+from __future__ import annotations
+
 import json
 import re
 from dataclasses import replace

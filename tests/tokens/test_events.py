@@ -1,5 +1,7 @@
 """Events in receipts, also in those of nodes that lie."""
 
+from __future__ import annotations
+
 from typing import Any
 
 import pytest

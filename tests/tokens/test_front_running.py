@@ -1,5 +1,7 @@
 """Somebody else sends the creation of a collection first: it is the same collection, and its owner goes on."""
 
+from __future__ import annotations
+
 from pathlib import Path
 
 import pytest

@@ -1,5 +1,7 @@
 """The collection of scenes that are kept on chain."""
 
+from __future__ import annotations
+
 import base64
 import io
 

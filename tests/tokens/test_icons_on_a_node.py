@@ -1,5 +1,7 @@
 """A collection of icons from its deployment to its last token, by the command line, seen by web3.py."""
 
+from __future__ import annotations
+
 import json
 from pathlib import Path
 

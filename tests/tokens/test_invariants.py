@@ -1,5 +1,7 @@
 """Whatever people do, in whatever order: what must always hold."""
 
+from __future__ import annotations
+
 import pytest
 
 pytest.importorskip("pyrevm", reason="a chain with state needs it")

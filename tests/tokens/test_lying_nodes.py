@@ -1,5 +1,7 @@
 """Nodes that lie about prices: what is paid is never above what was quoted, or nothing is sent."""
 
+from __future__ import annotations
+
 import io
 import re
 from collections.abc import Callable, Iterator

@@ -1,5 +1,7 @@
 """What tokens show, above all those of Genesis, the fields of their metadata, and the tokens of an account."""
 
+from __future__ import annotations
+
 import io
 import re
 from typing import Any

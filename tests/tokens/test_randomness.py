@@ -1,5 +1,7 @@
 """Where a Genesis collection is not deployed: chains whose seeds are known before, or can never be revealed."""
 
+from __future__ import annotations
+
 from pathlib import Path
 from typing import Any
 

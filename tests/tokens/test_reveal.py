@@ -1,5 +1,7 @@
 """Seeds: nobody chooses them, and they never change."""
 
+from __future__ import annotations
+
 import random
 
 import pytest

@@ -1,5 +1,7 @@
 """Tokens revealed on real nodes: by headers as nodes make them, early and late, and by a wallet, with --calldata."""
 
+from __future__ import annotations
+
 import json
 from pathlib import Path
 from typing import Any

@@ -1,5 +1,7 @@
 """Who may mint when, and where the ether goes."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from contextlib import nullcontext, suppress
 from types import SimpleNamespace

@@ -1,5 +1,7 @@
 """The standards that the collections claim."""
 
+from __future__ import annotations
+
 from typing import Any
 
 import pytest

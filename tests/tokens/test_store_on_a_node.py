@@ -1,5 +1,7 @@
 """Objects that are put on chain, by the command line, seen by web3.py."""
 
+from __future__ import annotations
+
 import base64
 import json
 from pathlib import Path

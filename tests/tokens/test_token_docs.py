@@ -1,5 +1,7 @@
 """The contract of docs/tokens.md compiles."""
 
+from __future__ import annotations
+
 from pathlib import Path
 
 from tools import build_contracts as tool

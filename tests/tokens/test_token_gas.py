@@ -1,5 +1,7 @@
 """No figure of benchmarks/tokens.json and icons.json may rise unnoticed; the usual gas of functions is about theirs."""
 
+from __future__ import annotations
+
 import json
 from pathlib import Path
 from typing import Any

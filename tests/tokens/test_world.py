@@ -1,5 +1,7 @@
 """The gas that the chain of the tests tells is that of a real node, to the last unit."""
 
+from __future__ import annotations
+
 from typing import Any
 
 import pytest

@@ -1,5 +1,7 @@
 """The encoder of the TypeScript package gives the bytes of Python's."""
 
+from __future__ import annotations
+
 import json
 from collections.abc import Callable, Sequence
 from pathlib import Path

@@ -1,5 +1,7 @@
 """Exported pages, opened from disk in chromium and Firefox."""
 
+from __future__ import annotations
+
 import base64
 import json
 import re

@@ -1,5 +1,7 @@
 """`render` of the TypeScript package gives the bytes, the gas and the errors of Python."""
 
+from __future__ import annotations
+
 import hashlib
 import random
 from pathlib import Path

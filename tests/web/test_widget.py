@@ -1,5 +1,7 @@
 """The widget of notebooks: a notebook that is run, and its widget in chromium."""
 
+from __future__ import annotations
+
 import base64
 import json
 import subprocess

@@ -5,6 +5,8 @@ they mean. The page has a line <!-- functions NAME --> for each contract, <!-- s
 file, and <!-- errors --> for the errors of all of its contracts.
 """
 
+from __future__ import annotations
+
 import json
 import re
 from collections.abc import Iterable

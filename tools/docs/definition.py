@@ -1,5 +1,7 @@
 """A hook of the documentation: lines of the form `{picture.py: draw, fill}` become the source of these functions."""
 
+from __future__ import annotations
+
 import ast
 import re
 from pathlib import Path

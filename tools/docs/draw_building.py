@@ -5,6 +5,8 @@
 Needs the compiler: `npm ci` in contracts/.
 """
 
+from __future__ import annotations
+
 import io
 
 import numpy as np

@@ -5,6 +5,8 @@
 Needs chromium, and the built page: make page.
 """
 
+from __future__ import annotations
+
 import io
 from collections.abc import Callable
 from typing import Any, Literal

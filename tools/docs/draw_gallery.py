@@ -5,6 +5,8 @@
 A picture is in docs/images/gallery under its name; tests run the commands of the page, and compare the pixels.
 """
 
+from __future__ import annotations
+
 import json
 import shlex
 import sys

@@ -5,6 +5,8 @@
 Needs the compiler: `npm ci` in contracts/.
 """
 
+from __future__ import annotations
+
 import io
 from collections.abc import Iterable
 from typing import Any

@@ -4,6 +4,8 @@ The contracts compute every pixel of the pictures. The strip has several picture
 names of pieces below them.
 """
 
+from __future__ import annotations
+
 import json
 import subprocess
 import sys

@@ -5,6 +5,8 @@
 Needs chromium, Node and the compiler: npm ci in contracts/.
 """
 
+from __future__ import annotations
+
 import io
 import sys
 import tempfile

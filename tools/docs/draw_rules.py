@@ -5,6 +5,8 @@ python -m tools.docs.draw_rules
 Each shows a scene of SIDE x SIDE pixels by the definition, the same by the contracts, and the difference.
 """
 
+from __future__ import annotations
+
 import runpy
 from collections.abc import Callable
 

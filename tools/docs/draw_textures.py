@@ -3,6 +3,8 @@
 python -m tools.docs.draw_textures
 """
 
+from __future__ import annotations
+
 import numpy as np
 from attrs import evolve
 from examples.showcase import vase

@@ -5,6 +5,8 @@
 Needs anvil and chromium. The pieces differ from run to run, because the chain determines their seeds.
 """
 
+from __future__ import annotations
+
 import io
 import os
 import sys

@@ -1,5 +1,7 @@
 """Show constructors of attrs classes in the reference, and the fields of a docstring as a list."""
 
+from __future__ import annotations
+
 import inspect
 import re
 from importlib import import_module

@@ -1,5 +1,7 @@
 """Make the pictures of the site interactive that contain their scene: a hook of mkdocs."""
 
+from __future__ import annotations
+
 import posixpath
 import re
 from functools import cache

@@ -1,5 +1,7 @@
 """Put the Creator into the site, at creator/, if `make page` has built it, and its logo: a hook of mkdocs."""
 
+from __future__ import annotations
+
 from pathlib import Path
 
 from mkdocs.config.defaults import MkDocsConfig

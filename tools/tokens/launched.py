@@ -1,5 +1,7 @@
 """Make a world with the collections deployed, for each test."""
 
+from __future__ import annotations
+
 import copy
 from dataclasses import dataclass
 from functools import cache

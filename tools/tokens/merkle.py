@@ -1,5 +1,7 @@
 """Build the Merkle tree of an allow list independently: leaves in order, pairs sorted."""
 
+from __future__ import annotations
+
 from collections.abc import Mapping
 
 from tools.tokens.world import keccak

@@ -7,6 +7,8 @@ Prints one line for each: `killed`, with the test that failed, or `SURVIVED`. Ex
 the source does not contain exactly once is an error, so that the list follows the contract.
 """
 
+from __future__ import annotations
+
 import json
 import re
 import subprocess

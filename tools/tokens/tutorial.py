@@ -1,5 +1,7 @@
 """The project of docs/token-tutorial.md, and its preview."""
 
+from __future__ import annotations
+
 import json
 import re
 import shlex

@@ -1,5 +1,7 @@
 """The compiled contracts, from the JSON files in this folder, which tools/build_contracts.py writes."""
 
+from __future__ import annotations
+
 import json
 import re
 from dataclasses import dataclass

@@ -1,5 +1,7 @@
 """Checks of arguments, each with a message that says what is wrong and what would be right."""
 
+from __future__ import annotations
+
 import math
 import operator
 import re

@@ -1,5 +1,7 @@
 """Pages for the browser of the user: a server on this machine, which other sites can neither read nor embed."""
 
+from __future__ import annotations
+
 import sys
 import webbrowser
 from collections.abc import Callable, Iterable

@@ -1,5 +1,7 @@
 """Untrusted text: JSON, TOML, and lines for a terminal."""
 
+from __future__ import annotations
+
 import json
 import re
 import tomllib

@@ -1,5 +1,7 @@
 """Atomic writes: a file is replaced completely or not at all."""
 
+from __future__ import annotations
+
 import errno
 import os
 import tempfile

@@ -4,6 +4,8 @@ The processes are started as separate programs and not by `multiprocessing`, whi
 each of them. They end with this process, however it ends.
 """
 
+from __future__ import annotations
+
 import os
 import pickle
 import queue

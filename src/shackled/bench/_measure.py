@@ -1,5 +1,7 @@
 """Measure the gas of a call. It is exact, so that one call is enough."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 import numpy as np

@@ -3,6 +3,8 @@
 original.csv has the execution gas of the scenes. None of their code is used.
 """
 
+from __future__ import annotations
+
 import csv
 from dataclasses import dataclass
 from functools import cache

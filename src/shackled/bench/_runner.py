@@ -3,6 +3,8 @@
 An experiment is a function of a module of this package.
 """
 
+from __future__ import annotations
+
 import os
 from collections.abc import Callable, Iterable
 from importlib import import_module

@@ -1,5 +1,7 @@
 """Fit linear functions to measurements."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from typing import NamedTuple
 

@@ -3,6 +3,8 @@
 Those that the original was measured with are the same here to the last unit: whole coordinates, its camera, its light.
 """
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 
 import numpy as np

@@ -1,5 +1,7 @@
 """The address book: a JSON file, written by `shackled deploy`, with the addresses of contracts on each chain."""
 
+from __future__ import annotations
+
 import errno
 import json
 import os

@@ -1,5 +1,7 @@
 """Interfaces of the places where pictures are made, and the contract calls that they share."""
 
+from __future__ import annotations
+
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from typing import Any, Protocol

@@ -1,5 +1,7 @@
 """A connection to a node, through which all requests go."""
 
+from __future__ import annotations
+
 import re
 import time
 from collections.abc import Callable, Iterator, Sequence

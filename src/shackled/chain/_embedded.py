@@ -3,6 +3,8 @@
 Every call starts from the same state, so that the same call always costs the same gas.
 """
 
+from __future__ import annotations
+
 import threading
 from abc import abstractmethod
 from collections.abc import Callable, Iterator

@@ -1,5 +1,7 @@
 """Which engines the Renderer calls for a scene, as contracts/src/uniforms/Runs.sol chooses them."""
 
+from __future__ import annotations
+
 from functools import lru_cache
 
 from ..artifacts import artifact

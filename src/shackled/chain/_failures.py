@@ -1,5 +1,7 @@
 """Failures of nodes and contracts as errors: HTTP status, messages of JSON-RPC in their many wordings, reverts."""
 
+from __future__ import annotations
+
 import math
 import re
 from collections.abc import Mapping

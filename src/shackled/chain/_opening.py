@@ -1,5 +1,7 @@
 """Selection of a chain by name, or of a node by its URL."""
 
+from __future__ import annotations
+
 from functools import cache
 from importlib.util import find_spec
 

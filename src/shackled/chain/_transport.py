@@ -1,5 +1,7 @@
 """JSON-RPC over HTTP, with a timeout for the whole answer."""
 
+from __future__ import annotations
+
 import itertools
 import json
 import re

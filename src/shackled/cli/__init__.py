@@ -1,5 +1,7 @@
 """The command `shackled`."""
 
+from __future__ import annotations
+
 import os
 import sys
 from typing import NoReturn

@@ -1,5 +1,7 @@
 """The command `shackled` and its exit codes: 0 for success, 2 for wrong usage or bad input, 1 for other failures."""
 
+from __future__ import annotations
+
 import os
 import sys
 from collections.abc import Sequence

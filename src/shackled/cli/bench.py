@@ -1,5 +1,7 @@
 """shackled bench"""
 
+from __future__ import annotations
+
 import sys
 from pathlib import Path
 

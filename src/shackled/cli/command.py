@@ -1,5 +1,7 @@
 """Commands of click that are made of functions, and groups that load a command when it is called."""
 
+from __future__ import annotations
+
 import inspect
 import os
 from collections.abc import Callable, Mapping, Sequence

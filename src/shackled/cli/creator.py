@@ -1,5 +1,7 @@
 """shackled creator"""
 
+from __future__ import annotations
+
 import json
 import re
 import shutil

@@ -1,5 +1,7 @@
 """shackled datasets"""
 
+from __future__ import annotations
+
 import json
 import sys
 from collections.abc import Iterable, Sequence

@@ -1,5 +1,7 @@
 """shackled deploy"""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any

@@ -1,5 +1,7 @@
 """shackled export"""
 
+from __future__ import annotations
+
 import json
 import sys
 import time

@@ -1,5 +1,7 @@
 """shackled gas"""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from functools import partial
 from itertools import count

@@ -1,5 +1,7 @@
 """shackled genesis"""
 
+from __future__ import annotations
+
 import json
 
 from ..datasets.genesis import generate_on_chain, parse_seed, picture_on_chain

@@ -1,5 +1,7 @@
 """The options of a look, generated from the table of settings, for all commands that render, and their values."""
 
+from __future__ import annotations
+
 import re
 import sys
 from collections.abc import Callable, Iterable

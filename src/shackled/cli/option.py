@@ -1,5 +1,7 @@
 """Declarations of options and arguments of commands, and their names in messages."""
 
+from __future__ import annotations
+
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import Field, field

@@ -3,6 +3,8 @@
 A note tells what of an input is left out or changed; with --strict it is an error.
 """
 
+from __future__ import annotations
+
 import json
 import re
 import sys

@@ -1,5 +1,7 @@
 """Render one input to a file, and say what was done."""
 
+from __future__ import annotations
+
 import hashlib
 import sys
 import time

@@ -1,5 +1,7 @@
 """shackled preview"""
 
+from __future__ import annotations
+
 from pathlib import Path
 
 from ..base.untrusted import plain

@@ -1,5 +1,7 @@
 """shackled render and stages"""
 
+from __future__ import annotations
+
 import io
 import json
 import sys

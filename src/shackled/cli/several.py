@@ -1,5 +1,7 @@
 """Several inputs of one command: which they are, the names of their pictures, and what becomes of each."""
 
+from __future__ import annotations
+
 import io
 import json
 import os

@@ -1,5 +1,7 @@
 """shackled store, library list and library store: scenes in the Studio"""
 
+from __future__ import annotations
+
 from pathlib import Path
 from typing import Any
 

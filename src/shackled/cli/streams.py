@@ -1,5 +1,7 @@
 """Standard input as a file to read, and standard output as one to write."""
 
+from __future__ import annotations
+
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager

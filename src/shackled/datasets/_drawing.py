@@ -3,6 +3,8 @@
 Finished drawings and fetched models are kept in a cache folder.
 """
 
+from __future__ import annotations
+
 import hashlib
 import io
 import json

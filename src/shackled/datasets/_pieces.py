@@ -1,5 +1,7 @@
 """Pieces, and how they are found by name. Each dataset is a module with `pieces()`, imported on first use."""
 
+from __future__ import annotations
+
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from difflib import get_close_matches

@@ -6,6 +6,8 @@ radius. Handle and spout are given by the half at y <= 0 and mirrored. His z axi
 spout at +x.
 """
 
+from __future__ import annotations
+
 import numpy as np
 
 from ..base.checks import Floats, whole

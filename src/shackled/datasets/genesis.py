@@ -1,5 +1,7 @@
 """Shackled Genesis: 1024 pieces of an on-chain generator. Every seed of 32 bytes gives a piece."""
 
+from __future__ import annotations
+
 import re
 from collections.abc import Iterator
 from dataclasses import asdict, dataclass

@@ -1,5 +1,7 @@
 """Contracts that can be deployed: address, code and gas before the deployment, and files that verify their sources."""
 
+from __future__ import annotations
+
 import json
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass

@@ -1,5 +1,7 @@
 """The deployer: plans, quotes and sends the transactions of contracts that a chain does not have yet."""
 
+from __future__ import annotations
+
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import partial

@@ -1,5 +1,7 @@
 """Quotes: transactions with their maximum cost. No transaction that could cost more is ever signed."""
 
+from __future__ import annotations
+
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial

@@ -1,5 +1,7 @@
 """The ABI: calls of functions, their results, and errors."""
 
+from __future__ import annotations
+
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from functools import cache, cached_property

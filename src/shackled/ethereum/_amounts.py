@@ -1,5 +1,7 @@
 """Amounts of ether, which are whole numbers of wei on chain: 1 ether is 10^18 wei."""
 
+from __future__ import annotations
+
 import re
 from decimal import ROUND_UP, Context, Decimal
 

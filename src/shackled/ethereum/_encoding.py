@@ -1,5 +1,7 @@
 """Hexadecimal text, ABI words, hashes, addresses, the intrinsic gas of data, and the RLP of block headers."""
 
+from __future__ import annotations
+
 import re
 from collections.abc import Mapping
 from typing import Any

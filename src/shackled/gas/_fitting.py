@@ -4,6 +4,8 @@ The order is the one that costs the eye least for the gas that it saves, by FLIP
 picture as it was asked for, at its size: see docs/gas.md and benchmarks/fitting.py.
 """
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 from typing import Literal

@@ -1,5 +1,7 @@
 """Exact gas of a picture, the gas limit that its call needs, and which documented limits it fits."""
 
+from __future__ import annotations
+
 import tomllib
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass

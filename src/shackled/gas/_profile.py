@@ -1,5 +1,7 @@
 """The gas of a picture by stage, by function of the contracts, by line of their sources, and by kind of opcode."""
 
+from __future__ import annotations
+
 from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass

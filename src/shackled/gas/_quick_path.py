@@ -1,5 +1,7 @@
 """The quick path of the EffectsEngine: faces all over which the colour is the same are lit once, not for each pixel."""
 
+from __future__ import annotations
+
 from collections import Counter
 
 from ..base.values import listed, plural

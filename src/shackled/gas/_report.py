@@ -1,5 +1,7 @@
 """All figures of the gas of one picture."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from typing import Any

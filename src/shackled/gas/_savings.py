@@ -1,5 +1,7 @@
 """What lowers the gas of a call that ran out of it enough, measured on its scene."""
 
+from __future__ import annotations
+
 from collections.abc import Callable, Iterator
 from contextlib import suppress
 from functools import partial

@@ -1,5 +1,7 @@
 """Find the gas that a call needs by bisection, from nothing but whether a limit suffices."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from dataclasses import dataclass
 

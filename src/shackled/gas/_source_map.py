@@ -1,5 +1,7 @@
 """Map the instructions of a contract to its sources."""
 
+from __future__ import annotations
+
 import json
 import re
 from bisect import bisect_right

@@ -1,5 +1,7 @@
 """The stages of a picture, and the source files of each."""
 
+from __future__ import annotations
+
 from ._source_map import SourceMap
 
 SETUP, ROWS = "triangle set-up", "rows of plain triangles"

@@ -1,5 +1,7 @@
 """Backends: where the parts of pictures are rendered, and how their answers are verified."""
 
+from __future__ import annotations
+
 import random
 from dataclasses import dataclass
 from typing import Protocol

@@ -1,5 +1,7 @@
 """Estimate the gas of a large picture from small pictures of the same scene."""
 
+from __future__ import annotations
+
 import math
 from bisect import bisect_right
 from dataclasses import dataclass

@@ -1,5 +1,7 @@
 """Render frames: cut them into parts, render the parts on backends, assemble the pictures."""
 
+from __future__ import annotations
+
 import time
 from collections.abc import Sequence
 from contextlib import ExitStack

@@ -4,6 +4,8 @@ Each slot of a backend takes the next part when it is free, so that slow backend
 cannot render returns to the queue; a backend that fails repeatedly, or answers wrongly, is dropped.
 """
 
+from __future__ import annotations
+
 import random
 import threading
 import time

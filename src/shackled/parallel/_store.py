@@ -4,6 +4,8 @@ Each part is a file, written atomically and named by the hash of the contracts a
 their hash when they are read; damaged ones are ignored.
 """
 
+from __future__ import annotations
+
 import hashlib
 import json
 from collections.abc import Sequence

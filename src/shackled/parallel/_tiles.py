@@ -6,6 +6,8 @@ contract leaves the others out: at 512 x 512 pixels 16 strips cost 3 % more than
 4 x 8.
 """
 
+from __future__ import annotations
+
 from collections.abc import Iterator
 
 from ..scene._codec import Rectangle

@@ -1,5 +1,7 @@
 """Where calls run: the values of the argument `on` of `render`, and the backends that make them."""
 
+from __future__ import annotations
+
 import os
 from pathlib import Path
 

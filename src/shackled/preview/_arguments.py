@@ -1,5 +1,7 @@
 """Values that the author gives: for the constructor, and for calls such as `mint{value: 0.1 ether}(3) x 5`."""
 
+from __future__ import annotations
+
 import json
 import re
 from collections.abc import Mapping, Sequence

@@ -1,5 +1,7 @@
 """What a token returns, which is untrusted: its metadata and pictures, judged as marketplaces read them."""
 
+from __future__ import annotations
+
 import io
 import json
 import re

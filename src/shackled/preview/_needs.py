@@ -1,5 +1,7 @@
 """What files of a token need that a token does not have: files from outside, and what marketplaces leave out."""
 
+from __future__ import annotations
+
 import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass

@@ -1,5 +1,7 @@
 """One preview: the contract as its sources are now, and its tokens."""
 
+from __future__ import annotations
+
 import os
 import re
 from collections.abc import Generator, Mapping, Sequence

@@ -1,5 +1,7 @@
 """The project of a contract: its folder, its compiler, and what the compiler makes of one file."""
 
+from __future__ import annotations
+
 import json
 import os
 import re

@@ -1,5 +1,7 @@
 """What is reported of many tokens: problems in few lines, and a summary for programs."""
 
+from __future__ import annotations
+
 import re
 from collections import Counter
 from collections.abc import Iterable

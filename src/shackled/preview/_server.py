@@ -1,5 +1,7 @@
 """The page of the preview, which follows the sources: each save compiles, deploys and draws again."""
 
+from __future__ import annotations
+
 import json
 import re
 import time

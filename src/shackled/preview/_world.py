@@ -1,5 +1,7 @@
 """An EVM that has the contracts of the package and the author's, with what the author's calls have changed."""
 
+from __future__ import annotations
+
 import re
 import threading
 import time

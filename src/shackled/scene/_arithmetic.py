@@ -5,6 +5,8 @@ Rotations are quaternions (x, y, z, w); the identity is (0, 0, 0, 1).
 NumPy's `@` and `norm` leave the order of sums to BLAS, and sines to the C library or the processor.
 """
 
+from __future__ import annotations
+
 import math
 
 import numpy as np

@@ -1,5 +1,7 @@
 """Scenes with the triangles that their canvas can show."""
 
+from __future__ import annotations
+
 import numpy as np
 from attrs import evolve
 

@@ -3,6 +3,8 @@
 Every field of the structs is a word of 32 bytes; lengths and coefficients are Q32 fixed-point numbers, value * 2^32.
 """
 
+from __future__ import annotations
+
 import struct
 from collections.abc import Iterable
 from itertools import accumulate

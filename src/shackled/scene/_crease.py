@@ -4,6 +4,8 @@ At which angle between faces an edge is a crease depends on the shape of the con
 angle suits all: the edge of a chamfer is a trait of the shape, one of the same angle in a coarse scan is not.
 """
 
+from __future__ import annotations
+
 import numpy as np
 from attrs import evolve
 

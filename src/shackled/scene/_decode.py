@@ -1,5 +1,7 @@
 """Scenes from calldata: the inverse of `_codec`, for untrusted bytes."""
 
+from __future__ import annotations
+
 import math
 import struct
 from collections.abc import Mapping

@@ -3,6 +3,8 @@
 `Scene.extensions` has a record for each effect. Scenes with any of them are antialiased.
 """
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from typing import Any, TypeVar
 

@@ -1,5 +1,7 @@
 """Meshes of other libraries, such as Open3D, PyVista and meshio, told by their attributes, without importing any."""
 
+from __future__ import annotations
+
 from typing import Any
 
 import numpy as np

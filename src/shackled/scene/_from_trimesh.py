@@ -1,5 +1,7 @@
 """Meshes and scenes of the library trimesh, without importing it."""
 
+from __future__ import annotations
+
 from typing import Any
 
 import numpy as np

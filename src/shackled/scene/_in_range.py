@@ -8,6 +8,8 @@ more bytes per vertex, where a step would be visible. Objects with more vertices
 divided last, so that their parts have one grid.
 """
 
+from __future__ import annotations
+
 import math
 from collections.abc import Iterator
 

@@ -1,5 +1,7 @@
 """Scenes with a look: what settings make of a mesh, the parts of a model, or a scene."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Mapping, Sequence
 from typing import Any, Unpack

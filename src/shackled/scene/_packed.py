@@ -1,5 +1,7 @@
 """Packed meshes and textures, in the formats of contracts/src/scene/Mesh.sol and effects/EffectRecords.sol."""
 
+from __future__ import annotations
+
 import struct
 
 import numpy as np

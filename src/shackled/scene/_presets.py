@@ -2,6 +2,8 @@
 culling, camera, size, effects and ground as they are.
 """
 
+from __future__ import annotations
+
 import tomllib
 from collections.abc import Iterable, Mapping
 from importlib.resources import files

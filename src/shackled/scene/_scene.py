@@ -1,5 +1,7 @@
 """Scenes: objects, camera, lights, background and size."""
 
+from __future__ import annotations
+
 import os
 from collections.abc import Iterable
 from pathlib import Path

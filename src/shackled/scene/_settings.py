@@ -1,5 +1,7 @@
 """The settings of the look of a picture: one table of them, for Python, the command line and scene files."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Callable, Collection, Mapping, Sequence
 from typing import Any, Final, Literal, TypedDict

@@ -1,5 +1,7 @@
 """Cameras, lights and backgrounds for meshes that have none: all of a mesh in the picture, seen from a little above."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Mapping, Sequence
 from typing import Any

@@ -1,5 +1,7 @@
 """Triangles of a model that lie so far away that they must not decide what fills the picture."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 
 import numpy as np

@@ -1,5 +1,7 @@
 """Rotation of scenes about their centre."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 
 import numpy as np

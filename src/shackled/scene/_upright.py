@@ -1,5 +1,7 @@
 """Which axis of a model points up: y, as in glTF and most programs of animation, or z, as in CAD."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from pathlib import Path
 

@@ -1,5 +1,7 @@
 """Which side of faces is the front: closed parts that are wound inside out are turned, and closed parts are culled."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 
 import numpy as np

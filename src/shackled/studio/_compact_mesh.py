@@ -5,6 +5,8 @@ first use: a face usually takes one byte, and a vertex as many bits as its coord
 this order, and nothing else of a mesh changes.
 """
 
+from __future__ import annotations
+
 from collections import defaultdict, deque
 from dataclasses import dataclass
 

@@ -1,5 +1,7 @@
 """Files that contracts make of a scene in one call: animated PNG files and models."""
 
+from __future__ import annotations
+
 import numpy as np
 from numpy.typing import ArrayLike
 

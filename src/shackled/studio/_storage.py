@@ -1,5 +1,7 @@
 """Storage of scenes in the Studio: the transactions that store one, and the code that one consists of."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from dataclasses import dataclass
 

@@ -4,6 +4,8 @@ The contract stores the root. The tree is that of OpenZeppelin's StandardMerkleT
 files are written, not read. Leaves are hashed twice, so that no inner node can be taken for a leaf.
 """
 
+from __future__ import annotations
+
 import re
 from bisect import bisect_left
 from collections.abc import Iterable, Mapping, Sequence

@@ -1,5 +1,7 @@
 """Collections on a chain, and what can be read from them."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 from typing import Any
 

@@ -1,5 +1,7 @@
 """A contract on a chain: calls through its ABI, transactions that are checked and quoted first, errors and events."""
 
+from __future__ import annotations
+
 from collections.abc import Callable, Iterable
 from contextlib import suppress
 from typing import Any

@@ -1,5 +1,7 @@
 """Editions: scenes that anyone can add to one collection, each a limited or open number of tokens."""
 
+from __future__ import annotations
+
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial

@@ -1,5 +1,7 @@
 """The icons of a collection, each with a stored scene, a price and a supply; and the licences of what is stored."""
 
+from __future__ import annotations
+
 import json
 import re
 from collections.abc import Mapping, Sequence

@@ -1,5 +1,7 @@
 """Deployment of a collection, of the contracts that it calls, and its setup before the sale; its immutable values."""
 
+from __future__ import annotations
+
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any

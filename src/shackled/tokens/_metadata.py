@@ -1,5 +1,7 @@
 """Metadata of a token from its `tokenURI`, which is untrusted: name, traits, picture."""
 
+from __future__ import annotations
+
 import base64
 import binascii
 import io

@@ -1,5 +1,7 @@
 """Transactions that reveal tokens by the headers of blocks, and a check that the blocks of a chain are fit for that."""
 
+from __future__ import annotations
+
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any

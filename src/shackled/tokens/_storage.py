@@ -1,5 +1,7 @@
 """Storage of scenes on a chain through the Studio: plan with prices, transactions, and check of the result."""
 
+from __future__ import annotations
+
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from functools import partial

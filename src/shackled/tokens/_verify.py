@@ -1,5 +1,7 @@
 """Verification of a collection: its code, seeds and pictures are compared with those computed here."""
 
+from __future__ import annotations
+
 import base64
 from collections.abc import Iterator
 from dataclasses import dataclass

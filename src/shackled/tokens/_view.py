@@ -1,5 +1,7 @@
 """Views of tokens, read from their `tokenURI`, and a page and a JSON file that show them."""
 
+from __future__ import annotations
+
 import base64
 import hashlib
 import json

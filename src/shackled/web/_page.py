@@ -1,5 +1,7 @@
 """A scene as a page of one file, which draws it in the browser of its reader."""
 
+from __future__ import annotations
+
 import base64
 import gzip
 import hashlib

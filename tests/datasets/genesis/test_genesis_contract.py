@@ -7,6 +7,8 @@ pieces.json holds the traits and a digest of all that 516 pieces consist of. It 
 which the contract did not differ; `--write` is for a change of the generator that is meant.
 """
 
+from __future__ import annotations
+
 import argparse
 import hashlib
 import json

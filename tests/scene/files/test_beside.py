@@ -1,5 +1,7 @@
 """Files that others name: only those in the folder are read, by whatever name."""
 
+from __future__ import annotations
+
 import os
 import sys
 import warnings

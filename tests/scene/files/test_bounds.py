@@ -1,5 +1,7 @@
 """No small file takes much: each is read in a process with a limit of memory and of time."""
 
+from __future__ import annotations
+
 import subprocess
 import sys
 from pathlib import Path

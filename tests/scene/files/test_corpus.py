@@ -1,5 +1,7 @@
 """STL, PLY and OFF files as programs write them, right or not: all are one square, as far as they are read."""
 
+from __future__ import annotations
+
 import re
 import struct
 from pathlib import Path

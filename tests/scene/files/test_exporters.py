@@ -1,5 +1,7 @@
 """OBJ files with the habits and the faults of real exporters: what is loaded of each, and what is told."""
 
+from __future__ import annotations
+
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path

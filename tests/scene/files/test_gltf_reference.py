@@ -1,5 +1,7 @@
 """glTF files of random contents, read by the package and by a reader written from the specification."""
 
+from __future__ import annotations
+
 import json
 import re
 from pathlib import Path

@@ -1,5 +1,7 @@
 """OBJ, PLY, STL and OFF files of random contents, read by the package and by trimesh, which it does not use itself."""
 
+from __future__ import annotations
+
 from pathlib import Path
 from typing import Any
 

@@ -1,5 +1,7 @@
 """Scenes in PNG files."""
 
+from __future__ import annotations
+
 import tracemalloc
 import zlib
 from pathlib import Path

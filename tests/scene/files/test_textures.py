@@ -1,5 +1,7 @@
 """Textures of mesh and scene files: what loads, how it is reduced, and files that are wrong."""
 
+from __future__ import annotations
+
 import base64
 import struct
 import zlib

@@ -1,5 +1,7 @@
 """shackled token deploy and demo: new collections"""
 
+from __future__ import annotations
+
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import partial

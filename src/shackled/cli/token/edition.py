@@ -1,5 +1,7 @@
 """shackled token edition: scenes that anyone can add to one collection"""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 from ...base.values import plural

@@ -1,5 +1,7 @@
 """Options that the commands of `shackled token` share: which collection."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass
 
 from ...base.checks import number

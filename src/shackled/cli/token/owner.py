@@ -1,5 +1,7 @@
 """Commands of the owner of a collection: the sale, royalties, ownership, icons, and who may mint before the sale"""
 
+from __future__ import annotations
+
 import json
 import time
 from functools import partial

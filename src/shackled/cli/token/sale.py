@@ -1,5 +1,7 @@
 """shackled token mint, reveal and transfer: commands for everyone"""
 
+from __future__ import annotations
+
 import time
 from pathlib import Path
 

@@ -1,5 +1,7 @@
 """shackled token show, list, picture and verify: commands that read"""
 
+from __future__ import annotations
+
 from itertools import chain
 from pathlib import Path
 from typing import Any

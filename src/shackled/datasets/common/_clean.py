@@ -1,5 +1,7 @@
 """Cleaning and simplification of scanned or modelled meshes, so that a contract draws them for little gas."""
 
+from __future__ import annotations
+
 import numpy as np
 from numpy.typing import ArrayLike
 

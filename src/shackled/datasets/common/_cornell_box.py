@@ -5,6 +5,8 @@ SIGGRAPH 1984; the numbers are those of the box with two blocks, "The Cornell Bo
 Computer Graphics, 1998. In millimetres; the viewer is at -z, and x grows to the left.
 """
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 
 import numpy as np

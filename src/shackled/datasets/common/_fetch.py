@@ -1,5 +1,7 @@
 """Download and preparation of models."""
 
+from __future__ import annotations
+
 import hashlib
 import io
 import re

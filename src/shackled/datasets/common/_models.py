@@ -1,5 +1,7 @@
 """Third-party models: their metadata, and their pieces."""
 
+from __future__ import annotations
+
 import io
 import tomllib
 from collections.abc import Sequence

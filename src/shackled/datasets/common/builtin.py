@@ -1,5 +1,7 @@
 """Common objects that need no file, each with a suitable pose and look."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from functools import partial
 from typing import Any

@@ -1,5 +1,7 @@
 """Meshes from formulas, about the origin and about 2 across, with y up; faces are seen from outside."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 from itertools import combinations, product
 

@@ -1,5 +1,7 @@
 """The icons, in the order in which they are listed: solids with a pose, a light and a background."""
 
+from __future__ import annotations
+
 from collections.abc import Callable
 
 import numpy as np

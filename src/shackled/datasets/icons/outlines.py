@@ -1,5 +1,7 @@
 """Polygons in the plane: (n, 2) arrays of distinct corners, counter-clockwise, the last joined to the first."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 
 import numpy as np

@@ -1,5 +1,7 @@
 """Files that another file names: where they are."""
 
+from __future__ import annotations
+
 import os
 import re
 from collections.abc import Callable, Iterator, Sequence

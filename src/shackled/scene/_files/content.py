@@ -1,5 +1,7 @@
 """Reading of files, with one-line errors, and what a file is by its content: signatures.toml."""
 
+from __future__ import annotations
+
 import os
 import re
 import stat

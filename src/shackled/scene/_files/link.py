@@ -1,5 +1,7 @@
 """Links of the Creator: a scene file in the fragment of the page's address, compressed."""
 
+from __future__ import annotations
+
 import base64
 import binascii
 import re

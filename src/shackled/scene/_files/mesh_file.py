@@ -1,5 +1,7 @@
 """Mesh files of any format."""
 
+from __future__ import annotations
+
 import os
 import re
 from collections.abc import Callable

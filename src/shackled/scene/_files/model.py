@@ -1,5 +1,7 @@
 """What a mesh file holds: meshes, each with what the file says of its material; and their textures."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from typing import Any, Literal

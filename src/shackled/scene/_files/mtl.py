@@ -1,5 +1,7 @@
 """The materials of Wavefront OBJ files: MTL, as exporters write it rather than as it is specified."""
 
+from __future__ import annotations
+
 import re
 from collections.abc import Sequence
 from contextlib import suppress

@@ -4,6 +4,8 @@ An own reader: trimesh misreads relative vertex numbers, takes vertex 0 for vert
 vertex has.
 """
 
+from __future__ import annotations
+
 import io
 import re
 from array import array

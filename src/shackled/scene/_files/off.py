@@ -1,5 +1,7 @@
 """OFF, the Object File Format of Geomview, as text, with its colours (which trimesh drops)."""
 
+from __future__ import annotations
+
 import re
 from itertools import chain
 from pathlib import Path

@@ -7,6 +7,8 @@ lightDiffPower / |lightPos|^2` is not cut to an integer. Left out: `lightAmbiPow
 diffuse colour of another hue than the specular one, of which the mean is taken while there is a highlight.
 """
 
+from __future__ import annotations
+
 from collections.abc import Mapping
 from typing import Any
 

@@ -1,5 +1,7 @@
 """The scene in a PNG file: a chunk with the call that renders it. docs/scene-files.md documents the chunk."""
 
+from __future__ import annotations
+
 import hashlib
 import zlib
 from binascii import Error, unhexlify

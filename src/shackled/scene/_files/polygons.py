@@ -1,5 +1,7 @@
 """Polygons as files have them, cut into triangles."""
 
+from __future__ import annotations
+
 from pathlib import Path
 
 import mapbox_earcut

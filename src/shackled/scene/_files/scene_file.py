@@ -3,6 +3,8 @@
 Keys that are settings of a look come from its table, with their kinds and ranges.
 """
 
+from __future__ import annotations
+
 import base64
 import math
 import os

@@ -1,5 +1,7 @@
 """What a file is by its content: the rows of signatures.toml."""
 
+from __future__ import annotations
+
 import re
 import tomllib
 from functools import cache

@@ -1,5 +1,7 @@
 """STL, as text or binary, with the colours that VisCAM, SolidView and Materialise Magics keep in binary files."""
 
+from __future__ import annotations
+
 import re
 from itertools import pairwise
 from pathlib import Path

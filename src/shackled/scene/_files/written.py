@@ -1,5 +1,7 @@
 """Scenes as scene files in JSON."""
 
+from __future__ import annotations
+
 import base64
 import json
 from collections.abc import Mapping

@@ -1,5 +1,7 @@
 """Animations: the nodes of a glTF document at a time."""
 
+from __future__ import annotations
+
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any

@@ -1,5 +1,7 @@
 """A glTF document: its tables, the bytes that they refer to, and notes of what is left out."""
 
+from __future__ import annotations
+
 import base64
 import binascii
 import struct

@@ -1,5 +1,7 @@
 """Primitives that are compressed with Draco."""
 
+from __future__ import annotations
+
 from typing import Any
 
 import numpy as np

@@ -1,5 +1,7 @@
 """Materials and textures of a glTF document, as far as they are drawn."""
 
+from __future__ import annotations
+
 import io
 import math
 from dataclasses import dataclass, replace

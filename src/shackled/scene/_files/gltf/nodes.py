@@ -1,5 +1,7 @@
 """The nodes of a glTF document: where they are, which of them are shown, and how often; morph targets and skins."""
 
+from __future__ import annotations
+
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 

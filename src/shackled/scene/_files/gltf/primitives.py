@@ -1,5 +1,7 @@
 """Primitives of meshes: their triangles, posed."""
 
+from __future__ import annotations
+
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 

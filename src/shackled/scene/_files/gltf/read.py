@@ -1,5 +1,7 @@
 """Meshes of glTF files."""
 
+from __future__ import annotations
+
 import math
 from collections import Counter
 from collections.abc import Sequence

@@ -1,5 +1,7 @@
 """The cameras and lights of a glTF document."""
 
+from __future__ import annotations
+
 import math
 from collections.abc import Mapping
 from pathlib import Path
